@@ -1,0 +1,20 @@
+# One dialect, one set of warnings, and arithmetic that is the same everywhere.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+# No contraction: a fused multiply-add here and none there would make two backends differ.
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+                    -ffp-contract=off)
+# errno and floating-point traps are not used; without this every sqrt is a guarded call.
+add_compile_options(-fno-math-errno -fno-trapping-math)
+
+if(WHITTLE_SANITIZE)
+  add_compile_options(-fsanitize=${WHITTLE_SANITIZE} -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${WHITTLE_SANITIZE})
+endif()

@@ -1,0 +1,21 @@
+# Every outside library, its Debian package, and why it is here.
+find_package(Threads REQUIRED)
+find_package(TBB REQUIRED)             # libtbb-dev: threads over tiles and cells
+find_package(CLI11 REQUIRED)           # libcli11-dev: the command line
+find_package(fmt REQUIRED)             # libfmt-dev: text
+find_package(nlohmann_json REQUIRED)   # nlohmann-json3-dev: machine-readable output
+find_package(PNG REQUIRED)             # libpng-dev: pictures
+find_package(OpenEXR REQUIRED)         # libopenexr-dev: facts as pictures
+if(WHITTLE_TESTS)
+  find_package(GTest REQUIRED)         # libgtest-dev
+  include(GoogleTest)
+  # librapidcheck-dev: property tests; it ships no CMake package.
+  find_path(RAPIDCHECK_INCLUDE rapidcheck.h REQUIRED)
+  find_library(RAPIDCHECK_LIBRARY rapidcheck REQUIRED)
+  add_library(rapidcheck INTERFACE)
+  target_include_directories(rapidcheck SYSTEM INTERFACE ${RAPIDCHECK_INCLUDE})
+  target_link_libraries(rapidcheck INTERFACE ${RAPIDCHECK_LIBRARY})
+endif()
+if(WHITTLE_BENCHMARKS)
+  find_package(benchmark REQUIRED)     # libbenchmark-dev
+endif()

@@ -1,0 +1,23 @@
+# whittle_module(NAME SOURCES ... DEPENDS ... TESTS ...)
+#
+# One folder of src/, one library whittle_NAME. TESTS become one program NAME_test whose cases CTest
+# knows one by one, labelled `unit`. DEPENDS names libraries; only those to the left in the data path.
+function(whittle_module name)
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;TESTS;TEST_DEPENDS" ${ARGN})
+  if(arg_SOURCES)
+    add_library(whittle_${name} STATIC ${arg_SOURCES})
+    target_include_directories(whittle_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(whittle_${name} PUBLIC ${arg_DEPENDS})
+  else()
+    add_library(whittle_${name} INTERFACE)
+    target_include_directories(whittle_${name} INTERFACE ${PROJECT_SOURCE_DIR}/src)
+    target_link_libraries(whittle_${name} INTERFACE ${arg_DEPENDS})
+  endif()
+  if(WHITTLE_TESTS AND arg_TESTS)
+    add_executable(${name}_test ${arg_TESTS})
+    target_link_libraries(${name}_test PRIVATE whittle_${name} ${arg_TEST_DEPENDS} rapidcheck
+                          GTest::gtest GTest::gtest_main)
+    gtest_discover_tests(${name}_test TEST_PREFIX "${name}/" DISCOVERY_TIMEOUT 60
+                         PROPERTIES LABELS unit TIMEOUT 60)
+  endif()
+endfunction()

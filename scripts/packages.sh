@@ -1,0 +1,27 @@
+# Every Debian package whittle needs, and why: the only such list. To be sourced.
+# What is found by CMake is found in cmake/Dependencies.cmake.
+
+build_packages=(
+  g++                 # a C++20 compiler
+  cmake               # configures
+  ninja-build         # builds
+  libtbb-dev          # threads over tiles and cells
+  libcli11-dev        # the command line
+  libfmt-dev          # text
+  nlohmann-json3-dev  # machine-readable output
+  libpng-dev          # pictures
+  libopenexr-dev      # facts as pictures
+)
+
+test_packages=(
+  libgtest-dev        # unit tests
+  librapidcheck-dev   # property tests
+  libbenchmark-dev    # kernel benchmarks
+  povray              # an independent renderer to agree with
+  openscad            # flattens .scad files
+)
+
+lint_packages=(
+  clang-format        # scripts/format.sh
+  clang-tidy          # scripts/tidy.sh
+)

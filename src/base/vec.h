@@ -1,0 +1,77 @@
+// Three-component vectors, the only vector maths whittle needs.
+#pragma once
+
+#include <cmath>
+
+namespace whittle {
+
+template <class T>
+struct Vec3T {
+  T x{}, y{}, z{};
+
+  constexpr T operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  constexpr T& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+
+  constexpr bool operator==(const Vec3T&) const = default;
+  constexpr Vec3T operator-() const { return {-x, -y, -z}; }
+  constexpr Vec3T operator+(Vec3T b) const { return {x + b.x, y + b.y, z + b.z}; }
+  constexpr Vec3T operator-(Vec3T b) const { return {x - b.x, y - b.y, z - b.z}; }
+  constexpr Vec3T operator*(T s) const { return {x * s, y * s, z * s}; }
+  constexpr Vec3T operator/(T s) const { return {x / s, y / s, z / s}; }
+  constexpr Vec3T& operator+=(Vec3T b) { return *this = *this + b; }
+  constexpr Vec3T& operator-=(Vec3T b) { return *this = *this - b; }
+  constexpr Vec3T& operator*=(T s) { return *this = *this * s; }
+};
+
+using Vec3 = Vec3T<double>;
+using Vec3f = Vec3T<float>;
+
+template <class T>
+constexpr Vec3T<T> operator*(T s, Vec3T<T> v) {
+  return v * s;
+}
+template <class T>
+constexpr T dot(Vec3T<T> a, Vec3T<T> b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+constexpr Vec3T<T> cross(Vec3T<T> a, Vec3T<T> b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class T>
+T length(Vec3T<T> a) {
+  return std::sqrt(dot(a, a));
+}
+/// The unit vector along `a`; the zero vector stays zero.
+template <class T>
+Vec3T<T> normalize(Vec3T<T> a) {
+  const T l = length(a);
+  return l > T(0) ? a / l : a;
+}
+/// Componentwise minimum.
+template <class T>
+constexpr Vec3T<T> min(Vec3T<T> a, Vec3T<T> b) {
+  return {b.x < a.x ? b.x : a.x, b.y < a.y ? b.y : a.y, b.z < a.z ? b.z : a.z};
+}
+/// Componentwise maximum.
+template <class T>
+constexpr Vec3T<T> max(Vec3T<T> a, Vec3T<T> b) {
+  return {a.x < b.x ? b.x : a.x, a.y < b.y ? b.y : a.y, a.z < b.z ? b.z : a.z};
+}
+/// Componentwise absolute value.
+template <class T>
+constexpr Vec3T<T> abs(Vec3T<T> a) {
+  return {a.x < 0 ? -a.x : a.x, a.y < 0 ? -a.y : a.y, a.z < 0 ? -a.z : a.z};
+}
+/// The largest component.
+template <class T>
+constexpr T max_component(Vec3T<T> a) {
+  const T m = a.x < a.y ? a.y : a.x;
+  return m < a.z ? a.z : m;
+}
+/// True if no component is an infinity or NaN.
+inline bool is_finite(Vec3 a) {
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
+}  // namespace whittle

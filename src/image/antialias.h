@@ -1,0 +1,27 @@
+// Antialiasing where it is needed: many rays only through pixels whose facts differ from a
+// neighbour's.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "image/shade.h"
+#include "trace/tracer.h"
+
+namespace whittle {
+
+/// The pixels at edges, one byte each (1: edge): the id differs from one of the eight neighbours',
+/// or the normals stand more than 8 degrees apart, or neither pixel's tangent plane foretells the
+/// other's distance to within two pixels' width.
+std::vector<uint8_t> edge_mask(const Frame& frame, const Camera& camera);
+
+/// shade(), but pixels at edges are the mean of n * n samples on a regular grid. Linear light is
+/// averaged in the studio style; the others define display values and know no light, so there those
+/// are averaged, as OpenGL's multisampling does. Without background the colour is the mean of the
+/// samples that hit, and alpha their share. Deterministic; n <= 1 is shade().
+Picture shade_antialiased(Tracer& tracer, const Camera& camera, const Frame& frame,
+                          std::span<const Appearance> appearances, const ShadeSettings& settings,
+                          int n);
+
+}  // namespace whittle

@@ -1,0 +1,62 @@
+#include "image/colorscheme.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace whittle {
+namespace {
+
+constexpr Rgb8 hex(uint32_t rgb) {
+  return {uint8_t(rgb >> 16), uint8_t(rgb >> 8 & 255), uint8_t(rgb & 255)};
+}
+
+constexpr ColorScheme flat(std::string_view name, uint32_t background, uint32_t front,
+                           uint32_t back) {
+  return {name, hex(background), hex(background), hex(front), hex(back)};
+}
+
+constexpr std::array kSchemes{
+    flat("Cornfield", 0xFFFFE5, 0xF9D72C, 0x9DCB51),
+    flat("Metallic", 0xAAAAFF, 0xDDDDFF, 0xDD22DD),
+    flat("Sunset", 0xAA4444, 0xFFAAAA, 0x882233),
+    flat("Starnight", 0x000000, 0xFFFFE0, 0x00FFFF),
+    flat("BeforeDawn", 0x333333, 0xCCCCCC, 0x5563DD),
+    flat("Nature", 0xFAFAFA, 0x16A085, 0xDBF4DA),
+    flat("Daylight Gem", 0xF0F0F0, 0x02DAF7, 0x014DA1),
+    flat("Nocturnal Gem", 0x0C0C0C, 0x02DAF7, 0x014DA1),
+    flat("DeepOcean", 0x333333, 0xEEEEEE, 0x0BABC8),
+    flat("Solarized", 0xFDF6E3, 0xB58800, 0x882233),
+    flat("Tomorrow", 0xF8F8F8, 0x4271AE, 0xF5871F),
+    flat("Tomorrow Night", 0x1D1F21, 0x81A2BE, 0xDE935F),
+    ColorScheme{"ClearSky", hex(0x87CEEB), hex(0xC9E9F6), hex(0xF9D72C), hex(0x9DCB51)},
+    flat("Monotone", 0xFFFFE5, 0xF9D72C, 0xF9D72C),
+};
+
+bool same_name(std::string_view a, std::string_view b) {
+  return std::ranges::equal(
+      a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+}  // namespace
+
+std::span<const ColorScheme> color_schemes() {
+  return kSchemes;
+}
+
+const ColorScheme* find_color_scheme(std::string_view name) {
+  const auto found =
+      std::ranges::find_if(kSchemes, [&](const ColorScheme& s) { return same_name(s.name, name); });
+  return found == kSchemes.end() ? nullptr : &*found;
+}
+
+std::string color_scheme_names() {
+  std::string names;
+  for (const ColorScheme& scheme : kSchemes) {
+    if (!names.empty()) names += ", ";
+    names += scheme.name;
+  }
+  return names;
+}
+
+}  // namespace whittle

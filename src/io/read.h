@@ -1,0 +1,47 @@
+// Reading models: OpenSCAD's .csg text, and .scad through the openscad program.
+//
+// The dialect is the one OpenSCAD dumps (and re-reads), plus the statement
+// `halfspace(n = [a, b, c], d = e)`, the solid {p : n.p <= e}.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "model/facets.h"
+#include "model/model.h"
+
+namespace whittle {
+
+/// How to read, and what is too much. A limit that is passed is an error that names it.
+struct ReadOptions {
+  Curves curves = Curves::kAuto;
+  uint32_t max_depth = 1'000'000;   ///< statements inside statements
+  size_t max_nodes = 200'000'000;   ///< nodes of the tree, before it is simplified
+  size_t max_facets = 50'000'000;   ///< flat faces of all spheres, cylinders and polyhedra together
+};
+
+/// What was read.
+struct Read {
+  Model model;
+  /// Full messages, `file:line:column: warning: ...`, in the order of the file; what transforms
+  /// make empty (transform_warnings) is among them. Many of one kind are summed up in one line.
+  std::vector<std::string> warnings;
+  bool unsupported = false;  ///< something was not understood, so the model may not be what was meant
+};
+
+/// Reads .csg text. `file_name` is what messages call it. The result does not refer to `text`.
+/// Errors are kInput with one line `file:line:column: error: ...`. One pass, linear in the text;
+/// nesting costs memory, never stack.
+Result<Read> read_csg(std::string_view text, const std::string& file_name,
+                      const ReadOptions& options = {});
+
+/// Reads a file; "-" is standard input. A name that ends in .scad is first evaluated by the
+/// openscad program, and messages then speak of `name (flattened)`, whose lines are those of the
+/// .csg text that openscad made. Errors: kInput, or kMachine if openscad cannot be run.
+Result<Read> read_file(const std::string& path, const ReadOptions& options = {});
+
+}  // namespace whittle

@@ -1,0 +1,40 @@
+// Warnings about a file, many of one kind summed up in one line.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/model.h"
+
+namespace whittle {
+
+/// Collects warnings. Of each kind the first kShown are kept word by word, the others are counted.
+class Warnings {
+ public:
+  static constexpr size_t kShown = 20;
+
+  explicit Warnings(std::string file) : file_(std::move(file)) {}
+
+  /// Adds `file:line:column: warning: message`. `kind` tells what counts as the same; it is a
+  /// sentence that can stand for all of them, and there should be few kinds.
+  void add(std::string_view kind, SourceLocation where, std::string_view message);
+
+  /// Adds a message that is complete already.
+  void add_full(std::string_view kind, std::string message);
+
+  /// All messages, then a line for each kind of which some were only counted.
+  std::vector<std::string> take();
+
+ private:
+  /// True if one more of this kind is to be shown.
+  bool count(std::string_view kind);
+
+  std::string file_;
+  std::vector<std::string> messages_;
+  std::map<std::string, size_t, std::less<>> counts_;
+};
+
+}  // namespace whittle

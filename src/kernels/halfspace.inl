@@ -1,0 +1,96 @@
+// The arithmetic of one half-space {p : f(p) <= 0}, f a quadric (a plane is a quadric whose second
+// degree is zero). Written in the subset that C++ and GLSL share (docs/numerics.md): pure
+// functions of numbers, no branches on values, select/pmin/pmax instead.
+//
+//   f(q) = q.A q + 2 b.q + c        q = p - centre of the half-space
+//
+// diag = (A_xx, A_yy, A_zz), off = (A_yz, A_xz, A_xy).
+
+struct Quadric {
+  Vec3 diag;
+  Vec3 off;
+  Vec3 b;
+  Real c;
+};
+
+// A q: the second-degree part applied once.
+FN Vec3 quadric_apply(Quadric f, Vec3 q) {
+  return make_vec3(f.diag.x * q.x + f.off.z * q.y + f.off.y * q.z,
+                   f.off.z * q.x + f.diag.y * q.y + f.off.x * q.z,
+                   f.off.y * q.x + f.off.x * q.y + f.diag.z * q.z);
+}
+
+FN Real quadric_value(Quadric f, Vec3 q) {
+  return dot3(quadric_apply(f, q), q) + K(2) * dot3(f.b, q) + f.c;
+}
+
+// Half of the gradient: A q + b. Its direction is the outward normal of the half-space.
+FN Vec3 quadric_half_gradient(Quadric f, Vec3 q) {
+  Vec3 g = quadric_apply(f, q);
+  return make_vec3(g.x + f.b.x, g.y + f.b.y, g.z + f.b.z);
+}
+
+// f(o + t d) = x t^2 + 2 y t + z along a ray; o relative to the half-space's centre.
+FN Vec3 quadric_along_ray(Quadric f, Vec3 o, Vec3 d) {
+  Vec3 ad = quadric_apply(f, d);
+  return make_vec3(dot3(ad, d), dot3(ad, o) + dot3(f.b, d), quadric_value(f, o));
+}
+
+// The signs of f(t) = a t^2 + 2 h t + k. If `crosses`, f changes sign at near_t < far_t (one of them
+// may be infinite); beyond the two f is negative if `outer`, and between them it is the opposite. If
+// not, f has the sign that `outer` tells everywhere. A double root changes no sign.
+struct Roots {
+  Real near_t;
+  Real far_t;
+  Bool crosses;
+  Bool outer;
+};
+
+// The stable form: the root of larger magnitude from the sum of equal signs, the other by k / q,
+// so nothing cancels (Press et al., Numerical Recipes, 5.6.4). With a = 0 the first root is
+// infinite, on the side where f is negative, and the second is the linear equation's.
+FN Roots quadratic_roots(Real a, Real h, Real k) {
+  Real discriminant = h * h - a * k;
+  Bool crosses = discriminant > K(0);
+  Real s = sqrt(select(crosses, discriminant, K(0)));
+  Real q = -(h + select(h < K(0), -s, s));
+  Bool linear = a == K(0);
+  Real r0 = q / select(linear, K(0), a);  // -0 becomes +0, so the infinity has q's sign
+  Real r1 = k / q;
+  Bool swap = r1 < r0;
+  return make_roots(select(swap, r1, r0), select(swap, r0, r1), crosses,
+                    select(linear, select(crosses, K(1), k), a) < K(0));
+}
+
+// The range of one term g x + a x^2 over -h <= x <= h: x is the low end, y the high end.
+FN Vec2 axis_range(Real g, Real a, Real h) {
+  Real low_end = a * h * h - g * h;
+  Real high_end = a * h * h + g * h;
+  // The vertex counts if it lies strictly inside.
+  Bool inner = fabs_(g) < K(2) * fabs_(a) * h;
+  Real vertex = select(inner, -(g * g) / (K(4) * select(inner, a, K(1))), low_end);
+  return make_vec2(pmin(pmin(low_end, high_end), vertex), pmax(pmax(low_end, high_end), vertex));
+}
+
+// Bounds of f over the box with centre m (relative to the half-space's centre) and half size h:
+// the centred form, exact for quadrics without mixed terms (planes, spheres, axis-aligned cylinders
+// and cones), else widened by the mixed terms' extremes. Widened by `slack` times the sum of the
+// terms' magnitudes, which covers the rounding of this evaluation and of a ray's.
+FN Vec2 quadric_range(Quadric f, Vec3 m, Vec3 h, Real slack) {
+  Real value = quadric_value(f, m);
+  Vec3 g = quadric_half_gradient(f, m);
+  Vec2 x = axis_range(K(2) * g.x, f.diag.x, h.x);
+  Vec2 y = axis_range(K(2) * g.y, f.diag.y, h.y);
+  Vec2 z = axis_range(K(2) * g.z, f.diag.z, h.z);
+  Real mixed = K(2) * (fabs_(f.off.x) * h.y * h.z + fabs_(f.off.y) * h.x * h.z +
+                       fabs_(f.off.z) * h.x * h.y);
+  Vec3 r = make_vec3(fabs_(m.x) + h.x, fabs_(m.y) + h.y, fabs_(m.z) + h.z);
+  Real magnitude = fabs_(f.diag.x) * r.x * r.x + fabs_(f.diag.y) * r.y * r.y +
+                   fabs_(f.diag.z) * r.z * r.z +
+                   K(2) * (fabs_(f.off.x) * r.y * r.z + fabs_(f.off.y) * r.x * r.z +
+                           fabs_(f.off.z) * r.x * r.y + fabs_(f.b.x) * r.x +
+                           fabs_(f.b.y) * r.y + fabs_(f.b.z) * r.z) +
+                   fabs_(f.c);
+  Real w = mixed + slack * magnitude;
+  return make_vec2(value + x.x + y.x + z.x - w, value + x.y + y.y + z.y + w);
+}

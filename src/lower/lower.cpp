@@ -1,0 +1,160 @@
+#include "lower/lower.h"
+
+#include <algorithm>
+
+#include "lower/half_space_table.h"
+#include "lower/primitive_faces.h"
+#include "model/instances.h"
+
+namespace whittle {
+namespace {
+
+/// Below this many faces a primitive is classified face by face anyway, and a ball inside it would
+/// save nothing.
+constexpr uint32_t kFacesForInnerBall = 12;
+
+/// Walks the model in preorder and writes the formula with negation pushed to the literals.
+class FormulaBuilder {
+ public:
+  FormulaBuilder(const Model& model, const Scene& scene, const std::vector<uint32_t>& unit_of_node)
+      : model_(model), scene_(scene), unit_of_node_(unit_of_node) {}
+
+  /// Fails if the formula outgrows a token's payload.
+  bool build(Formula& out) {
+    uint32_t i = 0;
+    const uint32_t end = uint32_t(model_.nodes.size());
+    while (i < end) {
+      while (!open_.empty() && open_.back().node_end == i) close(out);
+      const Node& node = model_.nodes[i];
+      if (node.background) {
+        i = node.end;
+        continue;
+      }
+      const bool negated = next_operand_negated();
+      if (node.kind == NodeKind::kPrimitive) {
+        primitive(i, negated, out);
+        i = node.end;
+      } else {
+        open(i, negated, out);
+        ++i;
+      }
+      if (out.size() >= Token::kMaxPayload) return false;
+    }
+    while (!open_.empty()) close(out);
+    return true;
+  }
+
+ private:
+  struct Open {
+    uint32_t node_end;
+    TokenKind kind;
+    bool negated;
+    bool difference;   ///< the operands after the first are negated
+    bool saw_operand;  ///< the first operand is behind us
+    bool has_header;   ///< false: its operands belong to the group around it
+    uint32_t header;
+  };
+
+  bool next_operand_negated() {
+    if (open_.empty()) return false;
+    Open& group = open_.back();
+    const bool flip = group.difference && group.saw_operand;
+    group.saw_operand = true;
+    return group.negated != flip;
+  }
+
+  void open(uint32_t i, bool negated, Formula& out) {
+    const Node& node = model_.nodes[i];
+    const bool conjunction =
+        node.kind == NodeKind::kIntersection || node.kind == NodeKind::kDifference;
+    // An intersection or difference of nothing is empty, like a union of nothing; as a conjunction
+    // it would be everything.
+    const bool and_group = conjunction && has_operand(i) ? !negated : negated;
+    const TokenKind kind = and_group ? TokenKind::kAnd : TokenKind::kOr;
+    const bool has_header = open_.empty() || open_.back().kind != kind;
+    open_.push_back({node.end, kind, negated, node.kind == NodeKind::kDifference, false, has_header,
+                     uint32_t(out.size())});
+    if (has_header) out.push_back(Token::make(kind, 0));
+  }
+
+  bool has_operand(uint32_t i) const {
+    for (uint32_t child = i + 1; child < model_.nodes[i].end; child = model_.nodes[child].end)
+      if (!model_.nodes[child].background) return true;
+    return false;
+  }
+
+  void close(Formula& out) {
+    const Open& group = open_.back();
+    if (group.has_header)
+      out[group.header] = Token::make(group.kind, uint32_t(out.size()) - group.header);
+    open_.pop_back();
+  }
+
+  void primitive(uint32_t i, bool negated, Formula& out) {
+    const uint32_t u = unit_of_node_[i];
+    const uint32_t faces = scene_.units[u].face_count;
+    if (faces == 0)  // empty: false, or true under a negation
+      out.push_back(Token::make(negated ? TokenKind::kAnd : TokenKind::kOr, 1));
+    else if (faces == 1)
+      out.push_back(Token::make(TokenKind::kFace, scene_.units[u].first_face, negated));
+    else
+      out.push_back(Token::make(TokenKind::kUnit, u, negated));
+  }
+
+  const Model& model_;
+  const Scene& scene_;
+  const std::vector<uint32_t>& unit_of_node_;
+  std::vector<Open> open_;
+};
+
+}  // namespace
+
+Result<Scene> lower(const Model& model) {
+  const Bounds model_bounds = bounds(model);
+  const Box region = view_region(model_bounds);
+  Scene scene;
+  scene.bounded = model_bounds.bounded;
+  scene.tolerance = tolerance(model_bounds);
+  const auto too_large = [&] {
+    return Error{ErrorKind::kMachine, model.file + ": error: more than " +
+                                          std::to_string(Token::kMaxPayload) +
+                                          " faces or operands, which is all whittle can number"};
+  };
+  if (region.is_empty()) {
+    scene.formula = {Token::make(TokenKind::kOr, 1)};
+    return scene;
+  }
+  scene.origin = region.center();
+  scene.region = {region.lo - scene.origin, region.hi - scene.origin};
+
+  const Affine local_from_world = translation(-scene.origin);
+  HalfSpaceTable table(max_component(scene.region.size()) / 2, scene.tolerance);
+  std::vector<uint32_t> unit_of_node(model.nodes.size(), 0);
+  LoweredPrimitive lowered;
+  for (const Instance& instance : instances(model)) {
+    const Primitive& primitive = model.primitives[instance.primitive];
+    Unit unit;
+    unit.id = primitive.id;
+    unit.first_face = uint32_t(scene.faces.size());
+    lowered.surfaces.clear();
+    if (!instance.empty)
+      lower_primitive(primitive.shape, local_from_world * instance.world_from_object, lowered);
+    const uint32_t number = uint32_t(scene.units.size());
+    for (const auto& [half_space, extent] : lowered.surfaces)
+      scene.faces.push_back({table.add(half_space, extent), number});
+    unit.face_count = uint32_t(scene.faces.size()) - unit.first_face;
+    if (unit.face_count > 1) unit.outer = transform(local_from_world, instance_box(model, instance));
+    if (unit.face_count >= kFacesForInnerBall) {
+      unit.inner_center = lowered.inner_center;
+      unit.inner_radius = lowered.inner_radius;
+    }
+    if (scene.faces.size() >= Token::kMaxPayload) return too_large();
+    unit_of_node[instance.node] = number;
+    scene.units.push_back(unit);
+  }
+  scene.half_spaces = table.take();
+  if (!FormulaBuilder(model, scene, unit_of_node).build(scene.formula)) return too_large();
+  return scene;
+}
+
+}  // namespace whittle

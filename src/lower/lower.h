@@ -1,0 +1,17 @@
+// Lowering: from the model to one formula over numbered half-spaces (DESIGN: half-spaces, not
+// primitives, are the literals). Transforms are folded into coefficients, difference becomes
+// and-not, nested operators of one kind become one, and equal or complementary half-spaces get one
+// number.
+#pragma once
+
+#include "base/result.h"
+#include "lower/scene.h"
+#include "model/model.h"
+
+namespace whittle {
+
+/// Linear in the model (half-spaces are found again by hashing). Fails only if the model has more
+/// faces or nodes than a token can number (2^29).
+Result<Scene> lower(const Model& model);
+
+}  // namespace whittle

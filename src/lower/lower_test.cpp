@@ -1,0 +1,249 @@
+#include "lower/lower.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+
+#include "io/read.h"
+#include "lower/evaluate.h"
+#include "lower/half_space_table.h"
+#include "lower/primitive_faces.h"
+#include "model/facets.h"
+
+namespace whittle {
+namespace {
+
+Model parse(const std::string& text) {
+  Result<Read> read = read_csg(text, "test.csg");
+  EXPECT_TRUE(read) << read.error().message;
+  return std::move(read->model);
+}
+
+Scene lowered(const std::string& text) {
+  Result<Scene> scene = lower(parse(text));
+  EXPECT_TRUE(scene) << scene.error().message;
+  return *std::move(scene);
+}
+
+bool inside(const Scene& scene, Vec3 world) {
+  return contains(scene, scene.formula, world - scene.origin);
+}
+
+TEST(Lower, FlushFacesShareAHalfSpace) {
+  // The pocket's top lies in the cube's top.
+  const Scene scene = lowered("difference(){cube(10); translate([2,2,5]) cube([6,6,5]);}");
+  EXPECT_EQ(scene.half_spaces.size(), 11u);
+  EXPECT_EQ(scene.faces.size(), 12u);
+}
+
+TEST(Lower, AbuttingFacesAreComplements) {
+  const Scene scene = lowered("cube(10); translate([10,0,0]) cube(10);");
+  // Four side planes are shared, and x = 10 is the end of one and the start of the other.
+  EXPECT_EQ(scene.half_spaces.size(), 12u - 4u - 1u);
+  int complements = 0;
+  for (const Face& face : scene.faces) complements += face.literal & 1;
+  EXPECT_EQ(complements, 1);
+}
+
+TEST(Lower, SixDigitTextIsNoObstacleToSharing) {
+  // The same plane through two rotations by 30 degrees, as OpenSCAD prints them.
+  const Scene scene = lowered(
+      "multmatrix([[0.866025,-0.5,0,0],[0.5,0.866025,0,0],[0,0,1,0],[0,0,0,1]]) cube(10);"
+      "multmatrix([[0.866025,-0.5,0,8.66025],[0.5,0.866025,0,5],[0,0,1,0],[0,0,0,1]]) cube(10);");
+  EXPECT_EQ(scene.half_spaces.size(), 7u);
+}
+
+TEST(Lower, CurvedWallsShareAQuadric) {
+  const Scene scene = lowered(
+      "difference(){cylinder(r=5,h=10); translate([0,0,4]) cylinder(r=5,h=20);}"
+      "rotate([0,0,33]) translate([0,0,-3]) cylinder(r=5,h=1);");
+  int quadrics = 0;
+  for (const HalfSpace& h : scene.half_spaces) quadrics += !h.plane;
+  EXPECT_EQ(quadrics, 1);
+}
+
+TEST(Lower, DifferentCurvedWallsStayDifferent) {
+  const Scene scene = lowered("sphere(5); sphere(5.001); translate([0.001,0,0]) sphere(5);");
+  EXPECT_EQ(scene.half_spaces.size(), 3u);
+}
+
+TEST(HalfSpaceTable, NearlyEqualPlanesDoNotChain) {
+  const double tolerance = 1e-6;
+  HalfSpaceTable table(1, tolerance);
+  for (int i = 0; i < 100; ++i)
+    table.add({{0, 0, i * 0.75 * tolerance}, {{}, {}, {0, 0, 0.5}, 0}, true}, 1);
+  // Each representative takes in the next one and no more.
+  EXPECT_EQ(table.take().size(), 50u);
+}
+
+TEST(HalfSpaceTable, FindsEqualsAcrossBucketBorders) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  HalfSpaceTable table(1, 1e-6);
+  for (int i = 0; i < 5000; ++i) {
+    const HalfSpace h{{unit(random), unit(random), unit(random)},
+                      {{}, {}, normalize(Vec3{unit(random), unit(random), unit(random)}) * 0.5, 0},
+                      true};
+    HalfSpace moved = h;
+    moved.center += moved.f.b * (1.9e-6 * unit(random));
+    HalfSpace turned = moved;
+    turned.f.b = -turned.f.b;
+    const Literal first = table.add(h, 1);
+    EXPECT_EQ(table.add(moved, 1), first);
+    EXPECT_EQ(table.add(turned, 1), first ^ 1);
+  }
+}
+
+/// Whether a point is in a shape, in the shape's own coordinates and by its own definition.
+bool in_shape(const Shape& shape, Vec3 p) {
+  if (const auto* c = std::get_if<Cube>(&shape)) {
+    const Vec3 q = c->center ? p + c->size * 0.5 : p;
+    return q.x >= 0 && q.y >= 0 && q.z >= 0 && q.x <= c->size.x && q.y <= c->size.y &&
+           q.z <= c->size.z;
+  }
+  if (is_flat(shape)) {
+    for (const Plane& plane : facet_planes(shape))
+      if (dot(plane.n, p) > plane.d) return false;
+    return true;
+  }
+  if (const auto* s = std::get_if<Sphere>(&shape)) return dot(p, p) <= s->r * s->r;
+  const auto& c = std::get<Cylinder>(shape);
+  const double z = c.center ? p.z + c.h / 2 : p.z;
+  const double r = c.r1 + (c.r2 - c.r1) * z / c.h;
+  return z >= 0 && z <= c.h && p.x * p.x + p.y * p.y <= r * r;
+}
+
+TEST(PrimitiveFaces, TheirConjunctionIsThePrimitive) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const Shape shapes[] = {
+      Cube{{1, 2, 3}, false},      Cube{{1, 2, 3}, true},       Sphere{1.3, 0},
+      Sphere{1.3, 7},              Cylinder{2, 1, 1, false, 0}, Cylinder{2, 1.5, 0.25, true, 0},
+      Cylinder{2, 0, 1, false, 0}, Cylinder{2, 1, 0, true, 0},  Cylinder{2, 1, 0.5, false, 5},
+      Halfspace{{1, 2, -1}, 0.5}};
+  for (const Shape& shape : shapes) {
+    for (int i = 0; i < 50; ++i) {
+      Affine map;
+      for (Vec3& row : map.row) row = {unit(random), unit(random), unit(random)};
+      map.translation = Vec3{unit(random), unit(random), unit(random)} * 5.0;
+      if (std::fabs(map.determinant()) < 0.05) continue;
+      LoweredPrimitive lowered;
+      lower_primitive(shape, map, lowered);
+      int in = 0;
+      for (int j = 0; j < 50; ++j) {
+        const Vec3 p = Vec3{unit(random), unit(random), unit(random)} * 2.5;
+        bool conjunction = true, close = false;
+        for (const auto& surface : lowered.surfaces) {
+          const double f = Kernels<double>::quadric_value(
+              surface.half_space.f, map.point(p) - surface.half_space.center);
+          conjunction &= f <= 0;
+          close |= std::fabs(f) < 1e-9;
+        }
+        in += conjunction;
+        if (!close) EXPECT_EQ(conjunction, in_shape(shape, p)) << shape.index();
+      }
+      EXPECT_GT(in, 0);
+    }
+  }
+}
+
+TEST(PrimitiveFaces, ValueIsAtMostTheDistance) {
+  // |gradient| <= 1 at the surface, and 1 where it is steepest: tolerances are lengths.
+  LoweredPrimitive lowered;
+  lower_primitive(Sphere{2, 0}, scaling({3, 1, 1}), lowered);
+  const HalfSpace& h = lowered.surfaces[0].half_space;
+  using K = Kernels<double>;
+  EXPECT_NEAR(2 * length(K::quadric_half_gradient(h.f, {0, 2, 0})), 1, 1e-12);
+  EXPECT_NEAR(2 * length(K::quadric_half_gradient(h.f, {6, 0, 0})), 1.0 / 3, 1e-12);
+}
+
+TEST(Lower, OperatorsMeanWhatTheySay) {
+  const Vec3 in_a{2, 5, 5}, in_both{7, 5, 5}, in_b{12, 5, 5}, in_none{20, 5, 5};
+  const std::string a = "cube(10);", b = "translate([5,0,0]) cube(10);";
+  struct Case {
+    std::string text;
+    bool a, both, b, none;
+  };
+  const Case cases[] = {
+      {"union(){" + a + b + "}", true, true, true, false},
+      {"difference(){" + a + b + "}", true, false, false, false},
+      {"intersection(){" + a + b + "}", false, true, false, false},
+      {"difference(){union(){" + a + b + "} intersection(){" + a + b + "}}", true, false, true,
+       false},
+      {"difference(){" + a + "difference(){" + a + b + "}}", false, true, false, false},
+      {"intersection(){" + a + "difference(){" + a + "}}", true, true, false, false},
+      // An empty but present operand counts.
+      {"difference(){group(); cube(10);}", false, false, false, false},
+      {"intersection(){group(); cube(10);}", false, false, false, false},
+      {"intersection(){cube(10); cube([0,1,1]);}", false, false, false, false},
+      {"difference(){cube(10); group(); intersection(){} difference(){}}", true, true, false,
+       false},
+      {"difference(){cube(10); sphere(0);}", true, true, false, false},
+      // A background operand does not.
+      {"difference(){%sphere(100); cube(10); " + b + "}", true, false, false, false},
+      {"intersection(){%sphere(0); cube(10);}", true, true, false, false},
+  };
+  for (const Case& c : cases) {
+    const Scene scene = lowered(c.text);
+    EXPECT_EQ(inside(scene, in_a), c.a) << c.text;
+    EXPECT_EQ(inside(scene, in_both), c.both) << c.text;
+    EXPECT_EQ(inside(scene, in_b), c.b) << c.text;
+    EXPECT_EQ(inside(scene, in_none), c.none) << c.text;
+  }
+}
+
+TEST(Lower, GroupsOfOneKindBecomeOne) {
+  const Scene scene = lowered(
+      "union(){union(){sphere(1); union(){sphere(2); sphere(3);}} group(){sphere(4);}}");
+  int groups = 0;
+  for (const Token token : scene.formula) groups += token.is_group();
+  EXPECT_EQ(groups, 1);
+  EXPECT_EQ(scene.formula.size(), 5u);
+}
+
+TEST(Lower, AChainOf100000OperandsIsOneConjunction) {
+  // ((cube - s1) - s2) - ...: nested as OpenSCAD programs nest it, and flat once lowered.
+  const int n = 100000;
+  std::string text;
+  for (int i = 0; i < n; ++i) text += "difference(){";
+  text += "cube(10);";
+  for (int i = 0; i < n; ++i) text += "translate([0,0," + std::to_string(i) + "]) sphere(0.3);}";
+  const Scene scene = lowered(text);
+  EXPECT_EQ(scene.units.size(), size_t(n) + 1);
+  size_t conjunctions = 0;
+  for (const Token token : scene.formula) conjunctions += token.kind() == TokenKind::kAnd;
+  // Each translate() is a union of one, negated: a conjunction inside of one.
+  EXPECT_EQ(conjunctions, 1u);
+  EXPECT_FALSE(inside(scene, {0.1, 0.1, 3}));
+  EXPECT_TRUE(inside(scene, {5, 5, 3}));
+}
+
+TEST(Lower, AlternatingNestingOf10000Passes) {
+  std::string text, tail;
+  for (int i = 0; i < 10000; ++i) {
+    text += i % 2 ? "union(){" : "intersection(){";
+    tail += i % 2 ? "sphere(1);}" : "sphere(100);}";
+  }
+  const Scene scene = lowered(text + "cube(10);" + tail);
+  EXPECT_TRUE(inside(scene, {5, 5, 5}));
+  EXPECT_TRUE(inside(scene, {-0.5, 0, 0}));
+  EXPECT_FALSE(inside(scene, {-1.5, 0, 0}));
+}
+
+TEST(Lower, NothingIsAFalseFormula) {
+  for (const char* text : {"", "sphere(0);", "difference(){group(); cube(1);}"}) {
+    const Scene scene = lowered(text);
+    EXPECT_TRUE(scene.region.is_empty()) << text;
+    EXPECT_FALSE(inside(scene, {0.5, 0.5, 0.5})) << text;
+  }
+}
+
+TEST(Lower, FarFromTheOriginNothingIsLost) {
+  const Scene scene = lowered("translate([1e6,-1e6,1e6]) difference(){cube(10); sphere(0.01);}");
+  EXPECT_FALSE(inside(scene, {1e6 + 0.001, -1e6 + 0.001, 1e6 + 0.001}));
+  EXPECT_TRUE(inside(scene, {1e6 + 0.02, -1e6 + 0.001, 1e6 + 0.001}));
+}
+
+}  // namespace
+}  // namespace whittle

@@ -1,0 +1,117 @@
+#include "lower/primitive_faces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/facets.h"
+
+namespace whittle {
+namespace {
+
+using K = Kernels<double>;
+
+/// weight * (r.q)^2 added to the quadric.
+void add_square(K::Quadric& f, Vec3 r, double weight) {
+  f.diag += Vec3{r.x * r.x, r.y * r.y, r.z * r.z} * weight;
+  f.off += Vec3{r.y * r.z, r.x * r.z, r.x * r.y} * weight;
+}
+
+/// Scales f so that its steepest gradient on the surface is about 1: for q.A q = s^2 that is
+/// 2 sqrt(lambda) s, lambda the largest eigenvalue of A, here bounded by its trace's parts.
+HalfSpace quadric_half_space(K::Quadric f, Vec3 center, double largest_eigenvalue) {
+  const double scale = 1 / (2 * std::sqrt(largest_eigenvalue * std::fabs(f.c)));
+  f.diag *= scale, f.off *= scale, f.b *= scale, f.c *= scale;
+  return {center, f, false};
+}
+
+HalfSpace plane_half_space(Vec3 normal, Vec3 point) {
+  return {point, {{}, {}, normalize(normal) * 0.5, 0}, true};
+}
+
+bool is_finite(const HalfSpace& h) {
+  return is_finite(h.center) && is_finite(h.f.diag) && is_finite(h.f.off) && is_finite(h.f.b) &&
+         std::isfinite(h.f.c);
+}
+
+struct Builder {
+  const Affine& local_from_object;
+  Affine object_from_local;
+  LoweredPrimitive& out;
+
+  void plane(const Plane& p, Vec3 near_point, double extent) {
+    // A point of the plane next to the primitive's middle keeps later numbers small.
+    const Vec3 foot = near_point + p.n * (p.d - dot(p.n, near_point));
+    out.surfaces.push_back({plane_half_space(object_from_local.transposed_vector(p.n),
+                                             local_from_object.point(foot)),
+                            extent});
+  }
+
+  void flat(const Shape& shape) {
+    const std::vector<Plane> planes = facet_planes(shape);
+    const std::vector<Vec3> vertices = facet_vertices(shape);
+    Vec3 middle;
+    for (const Vec3& v : vertices) middle += v / double(vertices.size());
+    double extent = 0;
+    for (const Vec3& v : vertices) extent = std::max(extent, length(local_from_object.vector(v - middle)));
+    out.surfaces.reserve(planes.size());
+    for (const Plane& p : planes) plane(p, middle, 2 * extent);
+    if (vertices.empty()) return;
+    out.inner_center = local_from_object.point(middle);
+    out.inner_radius = kInfinity;
+    for (const auto& surface : out.surfaces)
+      out.inner_radius = std::min(
+          out.inner_radius,
+          -K::quadric_value(surface.half_space.f, out.inner_center - surface.half_space.center));
+    out.inner_radius = std::max(0.0, out.inner_radius);
+  }
+
+  void sphere(const Sphere& s) {
+    K::Quadric f{{}, {}, {}, -s.r * s.r};
+    for (const Vec3& row : object_from_local.row) add_square(f, row, 1);
+    const double steepest = max_component(f.diag);
+    const double extent = s.r * (length(local_from_object.row[0]) + length(local_from_object.row[1]) +
+                                 length(local_from_object.row[2]));
+    out.surfaces.push_back(
+        {quadric_half_space(f, local_from_object.translation, steepest), extent});
+  }
+
+  void cylinder(const Cylinder& c) {
+    const double z_low = c.center ? -c.h / 2 : 0, z_high = z_low + c.h, z_mid = z_low + c.h / 2;
+    // About the axis' middle: x^2 + y^2 - (r + s z)^2, r the mean radius.
+    const double r = (c.r1 + c.r2) / 2, s = (c.r2 - c.r1) / c.h;
+    const auto& row = object_from_local.row;
+    K::Quadric f{{}, {}, row[2] * (-r * s), -r * r};
+    add_square(f, row[0], 1);
+    add_square(f, row[1], 1);
+    const double steepest = max_component(f.diag);
+    add_square(f, row[2], -s * s);
+    const double r_max = std::max(c.r1, c.r2);
+    const double extent = length(Vec3{length(local_from_object.vector({r_max, 0, 0})),
+                                      length(local_from_object.vector({0, r_max, 0})),
+                                      length(local_from_object.vector({0, 0, c.h / 2}))}) *
+                          std::sqrt(2.0);
+    const Vec3 middle{0, 0, z_mid};
+    out.surfaces.push_back(
+        {quadric_half_space(f, local_from_object.point(middle), steepest), extent});
+    plane({{0, 0, -1}, -z_low}, middle, extent);
+    plane({{0, 0, 1}, z_high}, middle, extent);
+  }
+};
+
+}  // namespace
+
+void lower_primitive(const Shape& shape, const Affine& local_from_object, LoweredPrimitive& out) {
+  out.surfaces.clear();
+  out.inner_radius = 0;
+  Builder builder{local_from_object, inverse(local_from_object), out};
+  if (is_flat(shape))
+    builder.flat(shape);
+  else if (const auto* sphere = std::get_if<Sphere>(&shape))
+    builder.sphere(*sphere);
+  else
+    builder.cylinder(std::get<Cylinder>(shape));
+  const auto finite = [](const auto& surface) { return is_finite(surface.half_space); };
+  if (!std::all_of(out.surfaces.begin(), out.surfaces.end(), finite)) out.surfaces.clear();
+}
+
+}  // namespace whittle

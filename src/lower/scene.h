@@ -1,0 +1,52 @@
+// The lowered model: numbered half-spaces, and one formula over them.
+//
+// All coordinates are local: world minus `origin`, the middle of the region, so that distance from
+// the world's origin eats no digits. Each half-space has a centre of its own near the primitive it
+// came from, for the same reason.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/box.h"
+#include "kernels/kernels.h"
+#include "lower/formula.h"
+
+namespace whittle {
+
+/// {p : f(p - center) <= 0}, scaled so that |f| is about the distance near the surface (the gradient
+/// there is at most 1, and 1 where the surface is steepest). Planes have no second degree.
+struct HalfSpace {
+  Vec3 center;
+  Kernels<double>::Quadric f;
+  bool plane = false;
+};
+
+/// One face of a primitive: which half-space, and whose.
+struct Face {
+  Literal literal = 0;
+  uint32_t unit = 0;
+};
+
+/// A primitive: the conjunction of its faces.
+struct Unit {
+  uint32_t id = 0;          ///< of the primitive statement
+  uint32_t first_face = 0;  ///< into Scene::faces
+  uint32_t face_count = 0;
+  Box outer;                ///< holds the primitive; everything if it is unbounded
+  Vec3 inner_center;        ///< a ball that the primitive holds; only where there are many faces
+  double inner_radius = 0;
+};
+
+struct Scene {
+  Vec3 origin;  ///< world = local + origin
+  Box region;   ///< local; the solid is looked at in here; empty if the solid is
+  bool bounded = true;  ///< false: the solid may reach beyond the region
+  double tolerance = 0; ///< surfaces this close across are one (docs/conventions.md)
+  std::vector<HalfSpace> half_spaces;
+  std::vector<Face> faces;
+  std::vector<Unit> units;
+  Formula formula;
+};
+
+}  // namespace whittle

@@ -1,0 +1,210 @@
+#include "model/facets.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/box.h"
+#include "base/result.h"
+
+namespace whittle {
+
+namespace {
+
+/// sin of 0..90 degrees.
+double sin_first_quadrant(double x) {
+  if (x == 0) return 0;
+  if (x == 30) return 0.5;
+  if (x == 45) return std::numbers::sqrt2 / 2;
+  if (x == 60) return std::numbers::sqrt3 / 2;
+  if (x == 90) return 1;
+  constexpr double kRadians = std::numbers::pi / 180;
+  // The smaller of the two complementary angles keeps more digits.
+  return x <= 45 ? std::sin(x * kRadians) : std::cos((90 - x) * kRadians);
+}
+
+/// The corners of OpenSCAD's circle of radius 1 and n fragments, the first on +x.
+std::vector<Vec3> unit_circle(int n) {
+  std::vector<Vec3> points;
+  points.reserve(size_t(n));
+  for (int k = 0; k < n; ++k)
+    points.push_back({cos_degrees(360.0 * k / n), sin_degrees(360.0 * k / n), 0});
+  return points;
+}
+
+/// The directions of the middles of that circle's sides.
+std::vector<Vec3> side_middles(int n) {
+  std::vector<Vec3> directions;
+  directions.reserve(size_t(n));
+  for (int k = 0; k < n; ++k) {
+    const double degrees = 180.0 * (2.0 * k + 1) / n;
+    directions.push_back({cos_degrees(degrees), sin_degrees(degrees), 0});
+  }
+  return directions;
+}
+
+/// Rings of OpenSCAD's sphere of n meridians; there is none at the poles.
+int ring_count(int n) {
+  return n / 2 + n % 2;
+}
+
+struct Planes {
+  std::vector<Plane> operator()(const Cube& s) const {
+    const Vec3 lo = s.center ? s.size * -0.5 : Vec3{};
+    const Vec3 hi = s.center ? s.size * 0.5 : s.size;
+    return {{{-1, 0, 0}, -lo.x}, {{1, 0, 0}, hi.x},   {{0, -1, 0}, -lo.y},
+            {{0, 1, 0}, hi.y},   {{0, 0, -1}, -lo.z}, {{0, 0, 1}, hi.z}};
+  }
+
+  std::vector<Plane> operator()(const Sphere& s) const {
+    const int n = s.facets, rings = ring_count(n);
+    const double apothem = cos_degrees(180.0 / n), half_step = cos_degrees(90.0 / rings);
+    const std::vector<Vec3> middles = side_middles(n);
+    std::vector<Plane> planes;
+    planes.reserve(size_t(n) * size_t(rings - 1) + 2);
+    planes.push_back({{0, 0, 1}, s.r * half_step});
+    planes.push_back({{0, 0, -1}, s.r * half_step});
+    for (int i = 1; i < rings; ++i) {
+      // The chord between two rings is normal to the bisector of their polar angles; the middle of
+      // a facet stands closer to the axis by the apothem. So written, the planes above and below
+      // the equator mirror one another exactly.
+      const double polar = 180.0 * i / rings;
+      const Vec3 meridian = {sin_degrees(polar), 0, apothem * cos_degrees(polar)};
+      const double scale = 1 / length(meridian);
+      for (const Vec3 p : middles)
+        planes.push_back({Vec3{meridian.x * p.x, meridian.x * p.y, meridian.z} * scale,
+                          s.r * apothem * half_step * scale});
+    }
+    return planes;
+  }
+
+  std::vector<Plane> operator()(const Cylinder& s) const {
+    const int n = s.facets;
+    const double z0 = s.center ? -s.h / 2 : 0, z1 = s.center ? s.h / 2 : s.h;
+    std::vector<Plane> planes;
+    planes.reserve(size_t(n) + 2);
+    if (s.r1 > 0) planes.push_back({{0, 0, -1}, -z0});
+    if (s.r2 > 0) planes.push_back({{0, 0, 1}, z1});
+    const double apothem = cos_degrees(180.0 / n), rise = (s.r1 - s.r2) * apothem;
+    const double size = std::hypot(s.h, rise);
+    const double across = s.h / size, up = rise / size;
+    // Taken at the wider end, where cancellation is least.
+    const double d =
+        s.r1 >= s.r2 ? across * s.r1 * apothem + up * z0 : across * s.r2 * apothem + up * z1;
+    for (const Vec3 p : side_middles(n)) planes.push_back({{across * p.x, across * p.y, up}, d});
+    return planes;
+  }
+
+  std::vector<Plane> operator()(const Polyhedron& s) const { return s.planes; }
+
+  std::vector<Plane> operator()(const Halfspace& s) const {
+    // Divided by the largest component first, so that no square overflows or vanishes.
+    const double m = max_component(abs(s.n));
+    const double l = length(s.n / m);
+    return {{s.n / m / l, s.d / m / l}};
+  }
+};
+
+struct Vertices {
+  std::vector<Vec3> operator()(const Cube& s) const {
+    const Box box = s.center ? Box{s.size * -0.5, s.size * 0.5} : Box{{}, s.size};
+    std::vector<Vec3> points;
+    for (int i = 0; i < 8; ++i) points.push_back(box.corner(i));
+    return points;
+  }
+
+  std::vector<Vec3> operator()(const Sphere& s) const {
+    const int n = s.facets, rings = ring_count(n);
+    const std::vector<Vec3> circle = unit_circle(n);
+    std::vector<Vec3> points;
+    points.reserve(size_t(n) * size_t(rings));
+    for (int i = 0; i < rings; ++i) {
+      const double polar = 180.0 * (i + 0.5) / rings;
+      const double r = s.r * sin_degrees(polar), z = s.r * cos_degrees(polar);
+      for (const Vec3 p : circle) points.push_back({p.x * r, p.y * r, z});
+    }
+    return points;
+  }
+
+  std::vector<Vec3> operator()(const Cylinder& s) const {
+    const double z0 = s.center ? -s.h / 2 : 0, z1 = s.center ? s.h / 2 : s.h;
+    std::vector<Vec3> points;
+    for (const auto& [r, z] : {std::pair{s.r1, z0}, std::pair{s.r2, z1}}) {
+      if (r == 0) points.push_back({0, 0, z});
+      for (const Vec3 p : unit_circle(r > 0 ? s.facets : 0))
+        points.push_back({p.x * r, p.y * r, z});
+    }
+    return points;
+  }
+
+  std::vector<Vec3> operator()(const Polyhedron& s) const {
+    std::vector<bool> used(s.points.size());
+    std::vector<Vec3> points;
+    for (const auto& face : s.faces) {
+      if (face.size() < 3) continue;
+      for (const uint32_t i : face)
+        if (!used[i]) used[i] = true, points.push_back(s.points[i]);
+    }
+    return points;
+  }
+
+  std::vector<Vec3> operator()(const Halfspace&) const { return {}; }
+};
+
+}  // namespace
+
+int fragments(double r, FragmentSettings settings) {
+  // 2^-20: OpenSCAD's smallest length.
+  if (r < 0x1p-20 || !std::isfinite(settings.fn)) return 3;
+  const double fa = std::fmax(settings.fa, 0.01), fs = std::fmax(settings.fs, 0.01);
+  const double n =
+      std::ceil(settings.fn > 0 ? std::fmax(settings.fn, 3)
+                                : std::fmax(std::fmin(360 / fa, 2 * std::numbers::pi * r / fs), 5));
+  constexpr int kMost = std::numeric_limits<int>::max();
+  return n < kMost ? int(n) : kMost;
+}
+
+int choose_facets(double r, FragmentSettings settings, Curves curves) {
+  if (curves == Curves::kSmooth) return 0;
+  // A $fn that is not a number counts as given: OpenSCAD makes triangles of it.
+  const bool is_curve = settings.fn <= 0;
+  if (curves == Curves::kAuto && is_curve) return 0;
+  const int n = fragments(r, settings);
+  return n > kMaxFacets ? 0 : n;
+}
+
+double sin_degrees(double degrees) {
+  bool negative = degrees < 0;
+  double x = std::fmod(std::fabs(degrees), 360);
+  if (x >= 180) x -= 180, negative = !negative;
+  if (x > 90) x = 180 - x;
+  const double s = sin_first_quadrant(x);
+  return negative && s != 0 ? -s : s;
+}
+
+double cos_degrees(double degrees) {
+  double x = std::fmod(std::fabs(degrees), 360);
+  if (x > 180) x = 360 - x;
+  const bool negative = x > 90;
+  if (negative) x = 180 - x;
+  const double c = sin_first_quadrant(90 - x);
+  return negative && c != 0 ? -c : c;
+}
+
+std::vector<Plane> facet_planes(const Shape& shape) {
+  WHITTLE_CHECK(is_flat(shape) && !is_empty(shape));
+  return std::visit(Planes{}, shape);
+}
+
+std::vector<Vec3> facet_vertices(const Shape& shape) {
+  WHITTLE_CHECK(is_flat(shape) && !is_empty(shape));
+  return std::visit(Vertices{}, shape);
+}
+
+bool is_flat(const Shape& shape) {
+  if (const auto* s = std::get_if<Sphere>(&shape)) return s->facets >= 3;
+  if (const auto* s = std::get_if<Cylinder>(&shape)) return s->facets >= 3;
+  return true;
+}
+
+}  // namespace whittle

@@ -1,0 +1,176 @@
+#include "model/facets.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+namespace whittle {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+/// The largest amount by which a point is outside one of the planes.
+double outside(const std::vector<Plane>& planes, Vec3 p) {
+  double most = -kInf;
+  for (const Plane& plane : planes) most = std::max(most, dot(plane.n, p) - plane.d);
+  return most;
+}
+
+/// How many of the points lie on the plane.
+int64_t on_plane(const Plane& plane, const std::vector<Vec3>& points, double slack) {
+  return std::ranges::count_if(
+      points, [&](Vec3 p) { return std::fabs(dot(plane.n, p) - plane.d) <= slack; });
+}
+
+TEST(Fragments, FollowOpenScadsRule) {
+  EXPECT_EQ(fragments(10, {.fn = 8}), 8);
+  EXPECT_EQ(fragments(10, {.fn = 1}), 3);
+  EXPECT_EQ(fragments(10, {.fn = 7.2}), 8) << "fractions round up";
+  EXPECT_EQ(fragments(10, {.fn = 0, .fa = 12, .fs = 2}), 30) << "$fa decides";
+  EXPECT_EQ(fragments(5, {.fn = 0, .fa = 12, .fs = 2}), 16) << "$fs decides: ceil(10 pi / 2)";
+  EXPECT_EQ(fragments(0.5, {.fn = 0, .fa = 12, .fs = 2}), 5) << "never below 5";
+  EXPECT_EQ(fragments(10, {.fn = -4, .fa = 12, .fs = 2}), 30) << "negative $fn is none";
+}
+
+TEST(Fragments, SurviveAnyNumbers) {
+  EXPECT_EQ(fragments(1e-7, {.fn = 100}), 3) << "below OpenSCAD's smallest length";
+  EXPECT_EQ(fragments(10, {.fn = kInf}), 3);
+  EXPECT_EQ(fragments(10, {.fn = kNan}), 3);
+  EXPECT_EQ(fragments(10, {.fn = 1e300}), std::numeric_limits<int>::max());
+  EXPECT_EQ(fragments(1e300, {.fn = 0, .fa = 1e-300, .fs = 0}), 36000) << "$fa is at least 0.01";
+}
+
+TEST(ChooseFacets, HonoursTheChoice) {
+  const FragmentSettings eight{.fn = 8}, none{.fn = 0};
+  EXPECT_EQ(choose_facets(10, eight, Curves::kAuto), 8);
+  EXPECT_EQ(choose_facets(10, none, Curves::kAuto), 0);
+  EXPECT_EQ(choose_facets(10, none, Curves::kFacets), 30);
+  EXPECT_EQ(choose_facets(10, eight, Curves::kSmooth), 0);
+  EXPECT_EQ(choose_facets(10, {.fn = 1e9}, Curves::kAuto), 0) << "finer than the tolerance";
+}
+
+TEST(Degrees, ExactWhereKnown) {
+  for (const double turn : {-720.0, 0.0, 360.0}) {
+    EXPECT_EQ(sin_degrees(turn + 30), 0.5);
+    EXPECT_EQ(sin_degrees(turn + 210), -0.5);
+    EXPECT_EQ(cos_degrees(turn + 60), 0.5);
+    EXPECT_EQ(cos_degrees(turn + 90), 0.0);
+    EXPECT_EQ(cos_degrees(turn + 270), 0.0);
+    EXPECT_EQ(cos_degrees(turn + 180), -1.0);
+    EXPECT_EQ(sin_degrees(turn + 180), 0.0);
+    EXPECT_EQ(sin_degrees(turn + 45), cos_degrees(turn + 45));
+    EXPECT_EQ(sin_degrees(turn + 120), std::numbers::sqrt3 / 2);
+  }
+}
+
+TEST(Degrees, AgreeWithRadians) {
+  rc::check([] {
+    const double degrees = *rc::gen::inRange(-100000000, 100000000) / 1e5;
+    RC_ASSERT(std::fabs(sin_degrees(degrees) - std::sin(degrees * std::numbers::pi / 180)) < 1e-12);
+    RC_ASSERT(std::fabs(cos_degrees(degrees) - std::cos(degrees * std::numbers::pi / 180)) < 1e-12);
+  });
+}
+
+TEST(FacetPlanes, CubeStandsWhereItShould) {
+  const auto corner = facet_planes(Cube{.size = {1, 2, 3}, .center = false});
+  EXPECT_EQ(corner.size(), 6u);
+  EXPECT_LT(outside(corner, {0.5, 1, 1.5}), 0);
+  EXPECT_GT(outside(corner, {-0.1, 1, 1.5}), 0);
+  const auto centered = facet_planes(Cube{.size = {1, 2, 3}, .center = true});
+  EXPECT_LT(outside(centered, {-0.4, -0.9, -1.4}), 0);
+  EXPECT_GT(outside(centered, {0, 0, 1.6}), 0);
+}
+
+TEST(FacetPlanes, SphereHasOpenScadsRings) {
+  // Four meridians: two rings at 45 and 135 degrees, one band between them.
+  const Sphere sphere{.r = 2, .facets = 4};
+  const auto planes = facet_planes(sphere);
+  const auto points = facet_vertices(sphere);
+  EXPECT_EQ(planes.size(), 4u + 2u);
+  EXPECT_EQ(points.size(), 8u);
+  for (const Vec3 p : points) {
+    EXPECT_NEAR(std::fabs(p.z), std::sqrt(2.0), 1e-15);
+    EXPECT_NEAR(std::hypot(p.x, p.y), std::sqrt(2.0), 1e-15);
+  }
+  EXPECT_EQ(points[0].y, 0) << "the first vertex is on +x";
+}
+
+TEST(FacetPlanes, EvenSphereIsSymmetricToTheLastBit) {
+  const auto planes = facet_planes(Sphere{.r = 1, .facets = 28});
+  int upright = 0;
+  for (const Plane& plane : planes) upright += plane.n.z == 0;
+  EXPECT_EQ(upright, 28) << "14 rings: the band about the equator stands upright";
+}
+
+TEST(FacetPlanes, ConeHasNoLid) {
+  EXPECT_EQ(facet_planes(Cylinder{.h = 1, .r1 = 1, .r2 = 0, .facets = 5}).size(), 6u);
+  EXPECT_EQ(facet_vertices(Cylinder{.h = 1, .r1 = 1, .r2 = 0, .facets = 5}).size(), 6u);
+  EXPECT_EQ(facet_planes(Cylinder{.h = 1, .r1 = 1, .r2 = 2, .facets = 5}).size(), 7u);
+}
+
+TEST(FacetPlanes, FourSidedPrismIsTheCubeToTheLastBit) {
+  // Rotated by 45 degrees its sides are those of a cube; the normals must be each other's.
+  for (const Plane& plane : facet_planes(Cylinder{.h = 2, .r1 = 1, .r2 = 1, .facets = 4}))
+    if (plane.n.z == 0) {
+      EXPECT_EQ(std::fabs(plane.n.x), std::fabs(plane.n.y));
+    }
+}
+
+TEST(FacetPlanes, HalfspaceIsNormalised) {
+  const auto planes = facet_planes(Halfspace{.n = {0, 0, 1e200}, .d = 2e200});
+  ASSERT_EQ(planes.size(), 1u);
+  EXPECT_EQ(planes[0].n, (Vec3{0, 0, 1}));
+  EXPECT_EQ(planes[0].d, 2);
+}
+
+TEST(FacetPlanes, AndVerticesAreTheSameSolid) {
+  rc::check([] {
+    const int n = *rc::gen::inRange(3, 40);
+    const double r1 = *rc::gen::inRange(0, 1000) / 100.0, r2 = *rc::gen::inRange(1, 1000) / 100.0,
+                 h = *rc::gen::inRange(1, 2000) / 100.0;
+    const bool center = *rc::gen::arbitrary<bool>();
+    const Shape shape = *rc::gen::element<Shape>(
+        Sphere{.r = r2, .facets = n},
+        Cylinder{.h = h, .r1 = r1, .r2 = r2, .center = center, .facets = n},
+        Cylinder{.h = h, .r1 = r2, .r2 = r1, .center = center, .facets = n},
+        Cube{.size = {r2, h, 1}, .center = center});
+    const auto planes = facet_planes(shape);
+    const auto points = facet_vertices(shape);
+    for (const Plane& plane : planes) {
+      RC_ASSERT(std::fabs(length(plane.n) - 1) < 1e-14);
+      RC_ASSERT(on_plane(plane, points, 1e-12) >= 3);
+    }
+    for (const Vec3 p : points) {
+      RC_ASSERT(std::fabs(outside(planes, p)) < 1e-12);
+      RC_ASSERT(std::ranges::count_if(planes, [&](const Plane& plane) {
+                  return std::fabs(dot(plane.n, p) - plane.d) < 1e-12;
+                }) >= 3);
+    }
+  });
+}
+
+TEST(IsEmpty, SizesThatAreNone) {
+  EXPECT_FALSE(is_empty(Cube{}));
+  EXPECT_TRUE(is_empty(Cube{.size = {1, 0, 1}}));
+  EXPECT_TRUE(is_empty(Cube{.size = {1, 1, kNan}}));
+  EXPECT_TRUE(is_empty(Cube{.size = {kInf, 1, 1}}));
+  EXPECT_TRUE(is_empty(Sphere{.r = -1}));
+  EXPECT_FALSE(is_empty(Cylinder{.h = 1, .r1 = 0, .r2 = 1}));
+  EXPECT_TRUE(is_empty(Cylinder{.h = 1, .r1 = 0, .r2 = 0}));
+  EXPECT_TRUE(is_empty(Cylinder{.h = 1, .r1 = -1, .r2 = 2}));
+  EXPECT_TRUE(is_empty(Cylinder{.h = kInf, .r1 = 1, .r2 = 1}));
+  EXPECT_TRUE(is_empty(Polyhedron{}));
+  EXPECT_TRUE(is_empty(Halfspace{.n = {0, 0, 0}, .d = 1}));
+  EXPECT_TRUE(is_empty(Halfspace{.n = {0, 0, 1}, .d = kInf}));
+}
+
+TEST(MessageAt, NamesThePlace) {
+  EXPECT_EQ(message_at("a.csg", {3, 14}, "no."), "a.csg:3:14: no.");
+}
+
+}  // namespace
+}  // namespace whittle

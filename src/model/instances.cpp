@@ -1,0 +1,256 @@
+#include "model/instances.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/result.h"
+#include "model/facets.h"
+
+namespace whittle {
+
+namespace {
+
+double largest_coordinate(const Box& box) {
+  return std::max(max_component(abs(box.lo)), max_component(abs(box.hi)));
+}
+
+/// The half-space in world coordinates, with unit normal.
+Plane world_plane(const Halfspace& shape, const Affine& world_from_object) {
+  const Plane plane = facet_planes(shape).front();
+  const Affine object_from_world = inverse(world_from_object);
+  const Vec3 n = object_from_world.transposed_vector(plane.n);
+  const double l = length(n);
+  return {n / l, (plane.d - dot(plane.n, object_from_world.translation)) / l};
+}
+
+/// The box of a ball of radius r about `center` under a map: how far each row of it reaches.
+Box ball_box(const Affine& map, double r) {
+  const Vec3 reach = Vec3{length(map.row[0]), length(map.row[1]), length(map.row[2])} * r;
+  return {map.translation - reach, map.translation + reach};
+}
+
+/// The box of a circle of radius r about the z axis at height z, under a map.
+Box circle_box(const Affine& map, double r, double z) {
+  const Vec3 center = map.point({0, 0, z});
+  const auto reach = [&](const Vec3& row) { return r * std::hypot(row.x, row.y); };
+  const Vec3 half = {reach(map.row[0]), reach(map.row[1]), reach(map.row[2])};
+  return {center - half, center + half};
+}
+
+Box halfspace_box(const Plane& plane) {
+  Box box = Box::everything();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (plane.n[(axis + 1) % 3] != 0 || plane.n[(axis + 2) % 3] != 0) continue;
+    if (plane.n[axis] > 0) box.hi[axis] = plane.d;
+    if (plane.n[axis] < 0) box.lo[axis] = -plane.d;
+  }
+  return box;
+}
+
+/// Precondition: the shape is not empty and the map is neither singular nor non-finite.
+Box shape_box(const Shape& shape, const Affine& map) {
+  if (const auto* s = std::get_if<Halfspace>(&shape)) return halfspace_box(world_plane(*s, map));
+  if (is_flat(shape)) {
+    Box box;
+    for (const Vec3 p : facet_vertices(shape)) box.include(map.point(p));
+    return box;
+  }
+  if (const auto* s = std::get_if<Sphere>(&shape)) return ball_box(map, s->r);
+  const auto& s = std::get<Cylinder>(shape);
+  const double z = s.center ? -s.h / 2 : 0;
+  return unite(circle_box(map, s.r1, z), circle_box(map, s.r2, z + s.h));
+}
+
+/// A box around the bounded shape in its own coordinates, cheap rather than tight.
+Box outer_box(const Shape& shape) {
+  if (const auto* s = std::get_if<Sphere>(&shape)) return ball_box({}, s->r);
+  if (const auto* s = std::get_if<Cylinder>(&shape)) {
+    const double r = std::max(s->r1, s->r2);
+    return {{-r, -r, -s->h}, {r, r, s->h}};
+  }
+  return shape_box(shape, {});
+}
+
+/// True if numbers as large as these leave the range in which a solid can be computed.
+bool overflows(const Shape& shape, const Affine& map) {
+  if (const auto* s = std::get_if<Halfspace>(&shape)) {
+    const Plane plane = world_plane(*s, map);
+    return !is_finite(plane.n) || !std::isfinite(plane.d);
+  }
+  const Box box = transform(map, outer_box(shape));
+  return !box.is_finite() || !std::isfinite(dot(box.size(), box.size()));
+}
+
+/// What an operator has gathered from its operands so far.
+struct BoxFold {
+  uint32_t node = 0;
+  uint32_t operands = 0;
+  Box box;
+};
+
+}  // namespace
+
+std::vector<Instance> instances(const Model& model) {
+  struct Scope {
+    uint32_t end;
+    Affine world_from_parent;
+  };
+  std::vector<Scope> scopes;
+  std::vector<Instance> found;
+  found.reserve(model.primitives.size());
+  for (uint32_t i = 0; i < model.nodes.size();) {
+    const Node& node = model.nodes[i];
+    if (node.background) {
+      i = node.end;
+      continue;
+    }
+    while (!scopes.empty() && scopes.back().end <= i) scopes.pop_back();
+    const Affine world_from_parent = scopes.empty() ? Affine{} : scopes.back().world_from_parent;
+    if (node.kind == NodeKind::kTransform) {
+      scopes.push_back({node.end, world_from_parent * model.transforms[node.payload]});
+    } else if (node.kind == NodeKind::kPrimitive) {
+      const Shape& shape = model.primitives[node.payload].shape;
+      const bool empty = is_empty(shape) || !world_from_parent.is_finite() ||
+                         is_singular(world_from_parent) || overflows(shape, world_from_parent);
+      found.push_back({i, node.payload, empty, world_from_parent});
+    }
+    ++i;
+  }
+  return found;
+}
+
+std::vector<Appearance> appearances(const Model& model) {
+  struct Scope {
+    uint32_t end = 0;
+    bool is_difference = false;
+    bool has_minuend = false;
+    Appearance below;  ///< of what stands in this scope
+  };
+  std::vector<Appearance> result(model.statement_count + 1);
+  std::vector<Scope> scopes;
+  for (uint32_t i = 0; i < model.nodes.size(); ++i) {
+    const Node& node = model.nodes[i];
+    while (!scopes.empty() && scopes.back().end <= i) scopes.pop_back();
+    Appearance here;
+    if (!scopes.empty()) {
+      Scope& parent = scopes.back();
+      here = parent.below;
+      if (parent.is_difference && !node.background) {
+        if (parent.has_minuend) here.cut = !here.cut;
+        parent.has_minuend = true;
+      }
+    }
+    if (node.kind == NodeKind::kColor && !here.color.is_valid() &&
+        model.colors[node.payload].is_valid())
+      here.color = model.colors[node.payload];
+    if (node.kind == NodeKind::kPrimitive) {
+      const uint32_t id = model.primitives[node.payload].id;
+      if (id >= result.size()) result.resize(id + 1);
+      result[id] = here;
+    } else {
+      scopes.push_back({node.end, node.kind == NodeKind::kDifference, false, here});
+    }
+  }
+  return result;
+}
+
+Box instance_box(const Model& model, const Instance& instance) {
+  if (instance.empty) return {};
+  return shape_box(model.primitives[instance.primitive].shape, instance.world_from_object);
+}
+
+Bounds bounds(const Model& model) {
+  const std::vector<Instance> all = instances(model);
+  std::vector<BoxFold> open;
+  Box box;
+  const auto give_to_parent = [&](const Box& operand) {
+    if (open.empty()) {
+      box = operand;
+      return;
+    }
+    BoxFold& parent = open.back();
+    const NodeKind kind = model.nodes[parent.node].kind;
+    if (parent.operands++ == 0)
+      parent.box = operand;
+    else if (kind == NodeKind::kIntersection)
+      parent.box = intersect(parent.box, operand);
+    else if (kind != NodeKind::kDifference)
+      parent.box = unite(parent.box, operand);
+  };
+  const auto close_before = [&](uint32_t i) {
+    while (!open.empty() && model.nodes[open.back().node].end <= i) {
+      const Box done = open.back().box;
+      open.pop_back();
+      give_to_parent(done);
+    }
+  };
+  size_t next_instance = 0;
+  for (uint32_t i = 0; i < model.nodes.size();) {
+    const Node& node = model.nodes[i];
+    close_before(i);
+    if (node.background) {
+      i = node.end;
+    } else {
+      if (node.kind == NodeKind::kPrimitive)
+        give_to_parent(instance_box(model, all[next_instance++]));
+      else
+        open.push_back({.node = i, .operands = 0, .box = {}});
+      ++i;
+    }
+  }
+  close_before(uint32_t(model.nodes.size()));
+  if (box.is_empty()) return {.box = {}, .bounded = true};
+  if (box.is_finite()) return {.box = box, .bounded = true};
+
+  Box reach;
+  for (const Instance& instance : all) {
+    if (instance.empty) continue;
+    const Shape& shape = model.primitives[instance.primitive].shape;
+    if (const auto* s = std::get_if<Halfspace>(&shape)) {
+      const Plane plane = world_plane(*s, instance.world_from_object);
+      reach.include(plane.n * plane.d);
+    } else {
+      reach = unite(reach, instance_box(model, instance));
+    }
+  }
+  return {.box = reach, .bounded = false};
+}
+
+double tolerance(const Bounds& bounds) {
+  return bounds.box.is_empty() ? 0 : kRelativeTolerance * largest_coordinate(bounds.box);
+}
+
+Box view_region(const Bounds& bounds) {
+  const Box& box = bounds.box;
+  if (box.is_empty()) return {};
+  if (bounds.bounded) {
+    // Enough for a surface that lies in a side of the box to be well inside.
+    const double margin = 10 * tolerance(bounds);
+    const Vec3 m = {margin, margin, margin};
+    return {box.lo - m, box.hi + m};
+  }
+  double side = max_component(box.size());
+  if (!(side > 0)) side = largest_coordinate(box);
+  if (!(side > 0)) side = 1;
+  const double half = 0.5 * kUnboundedReach * side;
+  return {box.center() - Vec3{half, half, half}, box.center() + Vec3{half, half, half}};
+}
+
+std::vector<std::string> transform_warnings(const Model& model) {
+  std::vector<std::string> warnings;
+  for (const Node& node : model.nodes) {
+    if (node.kind != NodeKind::kTransform) continue;
+    const Affine& map = model.transforms[node.payload];
+    if (!map.is_finite())
+      warnings.push_back(message_at(model.file, node.where,
+                                    "this transform is not finite; what it moves is left empty"));
+    else if (is_singular(map))
+      warnings.push_back(message_at(model.file, node.where,
+                                    "this transform flattens space; what it moves is left empty"));
+  }
+  return warnings;
+}
+
+}  // namespace whittle

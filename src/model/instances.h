@@ -1,0 +1,64 @@
+// What the tree says about each of its primitives: where it stands and how it looks.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/box.h"
+#include "model/model.h"
+
+namespace whittle {
+
+/// A primitive that takes part in the solid.
+struct Instance {
+  uint32_t node = 0;        ///< its node in the model
+  uint32_t primitive = 0;   ///< index into Model::primitives
+  bool empty = false;       ///< degenerate shape, or a singular or non-finite transform above it
+  Affine world_from_object;
+};
+
+/// The primitives of the solid in file order; those under `%` are left out.
+std::vector<Instance> instances(const Model& model);
+
+/// How the surface of a primitive is painted.
+struct Appearance {
+  Rgba color;        ///< the outermost valid color() above it; invalid if none
+  bool cut = false;  ///< reached through an odd number of subtractions
+};
+
+/// Indexed by primitive id; entry 0 (background) is a default.
+std::vector<Appearance> appearances(const Model& model);
+
+/// Where the solid can be.
+struct Bounds {
+  Box box;              ///< holds the solid; empty if the solid surely is
+  bool bounded = true;  ///< false: half-spaces reach out of every box; `box` then holds the finite
+                        ///< primitives and the half-spaces' feet, and is never empty
+};
+
+/// Bounds by the tree's own algebra: union of boxes, intersection of boxes, difference = its first
+/// operand's box. Exact boxes for every primitive under its transform.
+Bounds bounds(const Model& model);
+
+/// The exact box of one primitive where it stands; empty if it is. A half-space whose plane is
+/// square to an axis is half of everything, any other is everything. Their union is OpenSCAD's
+/// preview box, as bounds() with every operand in full; for framing.
+Box instance_box(const Model& model, const Instance& instance);
+
+/// The length below which two surfaces count as one: kRelativeTolerance times the largest
+/// coordinate of the bounds. Texts carry six digits, so nothing finer is meant.
+double tolerance(const Bounds& bounds);
+inline constexpr double kRelativeTolerance = 2e-6;
+
+/// The region in which the solid is looked at: its bounds a little enlarged, or for an unbounded
+/// solid a cube about their centre, kUnboundedReach times as long as their longest side
+/// (docs/conventions.md); where they are a single point p, its largest coordinate, or 1 at the
+/// origin, stands for that side. Empty for empty bounds.
+Box view_region(const Bounds& bounds);
+inline constexpr double kUnboundedReach = 1000;
+
+/// Warnings about transforms that flatten or are not finite, as full messages.
+std::vector<std::string> transform_warnings(const Model& model);
+
+}  // namespace whittle

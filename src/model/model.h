@@ -1,0 +1,120 @@
+// The model: what a person wrote, as a tree in one flat array. Nothing numeric happens here.
+//
+// Nodes stand in preorder: the children of node i are i + 1, then nodes[i + 1].end, and so on, as
+// long as they are below nodes[i].end. Walks are loops over the array, so depth costs no stack.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/affine.h"
+
+namespace whittle {
+
+/// A place in the source text; line and column count from 1 (columns in bytes), 0 is nowhere.
+struct SourceLocation {
+  uint32_t line = 0;
+  uint32_t column = 0;
+};
+
+/// A plane n.p = d with unit normal; as a half-space it holds the points with n.p <= d.
+struct Plane {
+  Vec3 n;
+  double d = 0;
+};
+
+// The primitives, in their own coordinates. Sizes are model units. A size that is not positive and
+// finite makes the primitive empty (see is_empty): an empty set, not a mistake.
+
+struct Cube {
+  Vec3 size{1, 1, 1};
+  bool center = false;  ///< true: centred on the origin; false: lowest corner at the origin
+};
+
+struct Sphere {
+  double r = 1;
+  int facets = 0;  ///< 0: the true sphere; n >= 3: OpenSCAD's polyhedron of n meridians
+};
+
+/// The frustum between z = 0 and z = h (centred: -h/2 and h/2), radius r1 below and r2 above.
+struct Cylinder {
+  double h = 1, r1 = 1, r2 = 1;
+  bool center = false;
+  int facets = 0;  ///< 0: the true curve; n >= 3: a prism or pyramid of n sides
+};
+
+/// A convex polyhedron. `planes` are its facets, outward; empty planes mean an empty solid.
+struct Polyhedron {
+  std::vector<Vec3> points;
+  std::vector<std::vector<uint32_t>> faces;  ///< vertex loops, clockwise seen from outside
+  std::vector<Plane> planes;
+};
+
+/// The points p with n.p <= d; n need not be unit. whittle's own extension of the dialect.
+struct Halfspace {
+  Vec3 n{0, 0, 1};
+  double d = 0;
+};
+
+using Shape = std::variant<Cube, Sphere, Cylinder, Polyhedron, Halfspace>;
+
+struct Primitive {
+  Shape shape;
+  uint32_t id = 0;  ///< number of the primitive statement in the file, from 1
+};
+
+/// Red, green, blue, alpha in 0..1; a component of -1 is unset, as color() may leave it.
+struct Rgba {
+  float r = -1, g = -1, b = -1, a = -1;
+  bool operator==(const Rgba&) const = default;
+  /// OpenSCAD's rule: a colour with any component unset does not count as one.
+  bool is_valid() const { return r >= 0 && g >= 0 && b >= 0 && a >= 0; }
+};
+
+enum class NodeKind : uint8_t {
+  kUnion,         ///< also group, render, and nodes that are not supported
+  kDifference,    ///< the first child minus all others
+  kIntersection,  ///< of all children; of none it is empty
+  kTransform,     ///< union of the children, mapped by transforms[payload]
+  kColor,         ///< union of the children, painted colors[payload]
+  kPrimitive,     ///< primitives[payload]
+};
+
+struct Node {
+  NodeKind kind = NodeKind::kUnion;
+  bool background = false;  ///< `%`: no part of the solid, and not an operand of its parent
+  bool highlight = false;   ///< `#`: part of the solid; a viewer may mark it
+  uint32_t end = 0;         ///< index one past the last node of this subtree
+  uint32_t payload = 0;     ///< index into the table that `kind` names
+  SourceLocation where;
+};
+
+/// `$vpt`, `$vpr`, `$vpd`, `$vpf` as assigned at the top level of the file.
+struct FileView {
+  std::optional<Vec3> target;            ///< $vpt, the point looked at
+  std::optional<Vec3> rotation_degrees;  ///< $vpr, OpenSCAD's Euler angles
+  std::optional<double> distance;        ///< $vpd, eye to target
+  std::optional<double> fov_degrees;     ///< $vpf, vertical
+};
+
+struct Model {
+  std::string file;              ///< for messages; "<stdin>" for standard input
+  std::vector<Node> nodes;       ///< preorder; nodes[0] is the implicit union of all statements
+  std::vector<Affine> transforms;
+  std::vector<Rgba> colors;
+  std::vector<Primitive> primitives;  ///< in file order; ids rise, `*` leaves gaps
+  uint32_t statement_count = 0;       ///< primitive statements in the file; ids are 1..this
+  FileView view;
+};
+
+/// True if the shape is the empty set: a size that is not positive, or not finite (csg-format 2.6).
+bool is_empty(const Shape& shape);
+
+/// `file:line:column: ` + message, the form of every message about a file.
+std::string message_at(const std::string& file, SourceLocation where, const std::string& message);
+
+}  // namespace whittle

@@ -1,0 +1,192 @@
+#include "model/polyhedron.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "model/facets.h"
+
+namespace whittle {
+namespace {
+
+/// A box of the given size, faces clockwise from outside.
+Polyhedron box(Vec3 s) {
+  return {
+      .points = {{0, 0, 0},
+                 {s.x, 0, 0},
+                 {s.x, s.y, 0},
+                 {0, s.y, 0},
+                 {0, 0, s.z},
+                 {s.x, 0, s.z},
+                 {s.x, s.y, s.z},
+                 {0, s.y, s.z}},
+      .faces = {{0, 1, 2, 3}, {4, 5, 1, 0}, {7, 6, 5, 4}, {5, 6, 2, 1}, {6, 7, 3, 2}, {7, 4, 0, 3}},
+      .planes = {}};
+}
+
+Polyhedron triangulated(const Polyhedron& p) {
+  Polyhedron r{.points = p.points, .faces = {}, .planes = {}};
+  for (const auto& f : p.faces)
+    for (size_t i = 2; i < f.size(); ++i) r.faces.push_back({f[0], f[i - 1], f[i]});
+  return r;
+}
+
+void reverse_faces(Polyhedron& p) {
+  for (auto& f : p.faces) std::ranges::reverse(f);
+}
+
+double outside(const std::vector<Plane>& planes, Vec3 p) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Plane& plane : planes) most = std::max(most, dot(plane.n, p) - plane.d);
+  return most;
+}
+
+double six_digits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return std::strtod(text, nullptr);
+}
+
+TEST(BuildPlanes, BoxGetsItsSixExactPlanes) {
+  Polyhedron p = box({1, 2, 3});
+  EXPECT_EQ(build_planes(p), std::nullopt);
+  EXPECT_EQ(p.planes.size(), 6u);
+  EXPECT_EQ(outside(p.planes, {0.5, 1, 1.5}), -0.5);
+  EXPECT_EQ(outside(p.planes, {1, 2, 3}), 0);
+  EXPECT_EQ(outside(p.planes, {0.5, 1, 3.25}), 0.25);
+}
+
+TEST(BuildPlanes, InsideOutIsTurned) {
+  Polyhedron p = box({1, 2, 3});
+  reverse_faces(p);
+  EXPECT_EQ(build_planes(p), std::nullopt);
+  EXPECT_EQ(outside(p.planes, {0.5, 1, 1.5}), -0.5);
+}
+
+TEST(BuildPlanes, TrianglesOfOneFaceAreOnePlane) {
+  Polyhedron p = triangulated(box({1, 2, 3}));
+  EXPECT_EQ(build_planes(p), std::nullopt);
+  EXPECT_EQ(p.planes.size(), 6u);
+}
+
+TEST(BuildPlanes, EqualPointsAreOne) {
+  Polyhedron p = triangulated(box({1, 2, 3}));
+  Polyhedron soup;
+  for (const auto& f : p.faces) {
+    soup.faces.emplace_back();
+    for (const uint32_t i : f) {
+      soup.faces.back().push_back(uint32_t(soup.points.size()));
+      soup.points.push_back(p.points[i]);
+    }
+  }
+  EXPECT_EQ(build_planes(soup), std::nullopt);
+  EXPECT_EQ(soup.planes.size(), 6u);
+}
+
+TEST(BuildPlanes, ShortFacesAreDropped) {
+  Polyhedron p = box({1, 1, 1});
+  p.faces.push_back({0, 1});
+  p.faces.push_back({});
+  EXPECT_EQ(build_planes(p), std::nullopt);
+  EXPECT_EQ(p.planes.size(), 6u);
+}
+
+TEST(BuildPlanes, NothingAndFlatAreEmptyWithoutComplaint) {
+  Polyhedron nothing;
+  EXPECT_EQ(build_planes(nothing), std::nullopt);
+  EXPECT_TRUE(nothing.planes.empty());
+  Polyhedron flat = box({1, 1, 0});
+  EXPECT_EQ(build_planes(flat), std::nullopt);
+  EXPECT_TRUE(flat.planes.empty());
+  Polyhedron broken = box({1, 1, std::numeric_limits<double>::infinity()});
+  EXPECT_EQ(build_planes(broken), std::nullopt);
+  EXPECT_TRUE(broken.planes.empty());
+}
+
+TEST(BuildPlanes, SaysWhatIsWrong) {
+  const auto reason = [](Polyhedron p) {
+    const auto text = build_planes(p);
+    EXPECT_TRUE(p.planes.empty());
+    return text.value_or("");
+  };
+  Polyhedron far = box({1, 1, 1});
+  far.faces[2][1] = 8;
+  EXPECT_EQ(reason(far), "face 2 uses point 8, but the points are 0 to 7");
+
+  Polyhedron open = box({1, 1, 1});
+  open.faces.pop_back();
+  EXPECT_NE(reason(open).find("not closed"), std::string::npos);
+
+  Polyhedron mixed = box({1, 1, 1});
+  std::ranges::reverse(mixed.faces[0]);
+  EXPECT_NE(reason(mixed).find("not turned the same way"), std::string::npos);
+
+  Polyhedron bent = box({1, 1, 1});
+  bent.points[6].z = 1.01;
+  EXPECT_NE(reason(bent).find("not flat"), std::string::npos);
+
+  Polyhedron dented = triangulated(box({1, 1, 1}));
+  dented.points[0] = {0.9, 0.9, 0.9};
+  EXPECT_NE(reason(dented).find("not convex"), std::string::npos);
+}
+
+TEST(BuildPlanes, TwoSeparateBoxesAreNotConvex) {
+  Polyhedron p = box({1, 1, 1});
+  const Polyhedron other = box({1, 1, 1});
+  for (const Vec3 q : other.points) p.points.push_back(q + Vec3{3, 0, 0});
+  for (auto f : other.faces) {
+    for (uint32_t& i : f) i += 8;
+    p.faces.push_back(f);
+  }
+  EXPECT_NE(build_planes(p).value_or("").find("not convex"), std::string::npos);
+}
+
+TEST(BuildPlanes, SixDigitCornersAreAccepted) {
+  // Facetted spheres as OpenSCAD would dump them: four-cornered faces, slivers next to the caps.
+  rc::check([] {
+    const int n = *rc::gen::inRange(3, 40), rings = (n + 1) / 2;
+    const double r = *rc::gen::inRange(100, 100000) / 777.0;
+    const Vec3 shift = Vec3{1, 0.7, -0.3} * (*rc::gen::inRange(-1000, 1000) / 999.0 * r);
+    Polyhedron p;
+    for (const Vec3 v : facet_vertices(Sphere{.r = r, .facets = n})) {
+      const Vec3 q = v + shift;
+      p.points.push_back({six_digits(q.x), six_digits(q.y), six_digits(q.z)});
+    }
+    const auto at = [n](int ring, int k) { return uint32_t(ring * n + k % n); };
+    p.faces.resize(2);
+    for (int k = 0; k < n; ++k) {
+      p.faces[0].push_back(at(0, n - k));
+      p.faces[1].push_back(at(rings - 1, k));
+      for (int i = 0; i + 1 < rings; ++i)
+        p.faces.push_back({at(i, k), at(i, k + 1), at(i + 1, k + 1), at(i + 1, k)});
+    }
+    const auto reason = build_planes(p);
+    RC_ASSERT(reason.value_or("") == "");
+    for (const Vec3 q : p.points) {
+      RC_ASSERT(outside(p.planes, q) <= 0);
+      RC_ASSERT(outside(p.planes, q) > -1e-4 * r);
+    }
+    RC_ASSERT(outside(p.planes, shift + Vec3{1.01, 0, 0} * r) > 0);
+  });
+}
+
+TEST(BuildPlanes, SliverInALargeFaceDoesNotTiltIt) {
+  // The top is cut into two halves and a sliver between them whose corner is off by one in the
+  // sixth digit; its own direction is worthless and must not bound the solid.
+  Polyhedron p = box({100, 100, 10});
+  p.points.push_back({50, 50.0001, 10.0001});
+  p.faces[2] = {7, 6, 8};
+  p.faces.push_back({6, 5, 8});
+  p.faces.push_back({5, 4, 8});
+  p.faces.push_back({4, 7, 8});
+  EXPECT_EQ(build_planes(p), std::nullopt);
+  EXPECT_EQ(p.planes.size(), 6u);
+  EXPECT_LE(outside(p.planes, {0, 0, 10}), 0);
+  EXPECT_NEAR(outside(p.planes, {99, 99, 10.5}), 0.5, 1e-3);
+}
+
+}  // namespace
+}  // namespace whittle

@@ -1,0 +1,195 @@
+#include "subdivide/leaf.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "lower/evaluate.h"
+
+namespace whittle {
+namespace {
+
+/// Bit s of kVariable[i] is bit i of s: the truth table of literal i alone.
+constexpr uint64_t kVariable[kTableLiterals] = {0xaaaaaaaaaaaaaaaa, 0xcccccccccccccccc,
+                                                0xf0f0f0f0f0f0f0f0, 0xff00ff00ff00ff00,
+                                                0xffff0000ffff0000, 0xffffffff00000000};
+
+/// The rows of a table over n literals.
+uint64_t rows(uint32_t n) { return n == kTableLiterals ? ~uint64_t(0) : (uint64_t(1) << (1u << n)) - 1; }
+
+bool depends_on(uint64_t table, uint32_t i) {
+  const uint64_t with = table & kVariable[i], without = table & ~kVariable[i];
+  return (with >> (1u << i)) != without;
+}
+
+/// The table without literal i, on which it does not depend; later literals move down by one.
+uint64_t without(uint64_t table, uint32_t i, uint32_t n) {
+  uint64_t result = 0;
+  for (uint32_t s = 0; s < (1u << (n - 1)); ++s) {
+    const uint32_t low = s & ((1u << i) - 1);
+    result |= (table >> ((s - low) * 2 + low) & 1) << s;
+  }
+  return result;
+}
+
+}  // namespace
+
+void LeafAnalysis::analyse(std::span<const Token> formula) {
+  formula_ = formula;
+  half_spaces_.clear();
+  primitive_count_ = 0;
+  // Faces of one primitive stand next to each other, so counting changes counts primitives (a
+  // primitive that stands twice counts twice, as it does in the tree).
+  uint32_t last_unit = UINT32_MAX;
+  for (const Token token : formula) {
+    if (token.kind() != TokenKind::kFace) continue;
+    const Face& face = scene_.faces[token.payload()];
+    if (face.unit != last_unit) ++primitive_count_;
+    last_unit = face.unit;
+    half_spaces_.push_back({face.literal >> 1, face.unit + 1});
+  }
+  std::stable_sort(half_spaces_.begin(), half_spaces_.end(),
+                   [](const Used& a, const Used& b) { return a.half_space < b.half_space; });
+  size_t kept = 0;
+  for (const Used& used : half_spaces_) {
+    if (kept > 0 && half_spaces_[kept - 1].half_space == used.half_space)
+      half_spaces_[kept - 1].owner = 0;
+    else
+      half_spaces_[kept++] = used;
+  }
+  half_spaces_.resize(kept);
+  has_table_ = kept <= kTableLiterals;
+  if (has_table_) compute_table();
+}
+
+uint32_t LeafAnalysis::position(uint32_t half_space) const {
+  const auto found = std::lower_bound(
+      half_spaces_.begin(), half_spaces_.end(), half_space,
+      [](const Used& used, uint32_t number) { return used.half_space < number; });
+  return uint32_t(found - half_spaces_.begin());
+}
+
+void LeafAnalysis::compute_table() {
+  uint32_t n = size();
+  table_ = rows(n) & evaluate<uint64_t>(formula_, ~uint64_t(0), [&](Token token) {
+             const Literal literal = scene_.faces[token.payload()].literal;
+             const uint64_t inside = kVariable[position(literal >> 1)];
+             return bool(literal & 1) != token.negated() ? ~inside : inside;
+           });
+  // Drop, from the last, what the function does not depend on (equal cofactors).
+  for (uint32_t i = n; i-- > 0;) {
+    if (depends_on(table_, i)) continue;
+    table_ = without(table_, i, n--);
+    half_spaces_.erase(half_spaces_.begin() + i);
+  }
+}
+
+bool LeafAnalysis::is_plain_union() const {
+  for (size_t i = 0; i < formula_.size(); ++i) {
+    const Token token = formula_[i];
+    if (token.is_pass() || token.kind() == TokenKind::kOr) continue;
+    // A conjunction is a primitive if all in it are faces of one.
+    const size_t end = token.is_group() ? i + token.payload() : i + 1;
+    if (token.is_group()) ++i;
+    const auto unit = [&](size_t at) { return scene_.faces[formula_[at].payload()].unit; };
+    for (const size_t first = i; i < end; ++i)
+      if (formula_[i].is_group() || formula_[i].negated() || unit(i) != unit(first)) return false;
+    i = end - 1;
+  }
+  return true;
+}
+
+CellKind LeafAnalysis::signs(std::vector<Literal>& out) const {
+  out.resize(size());
+  if (has_table_) {
+    // One row true: a conjunction. One row false: a disjunction. That row tells the signs.
+    const int ones = std::popcount(table_);
+    const bool conjunction = ones == 1;
+    if (!conjunction && ones != (1 << size()) - 1) return CellKind::kTable;
+    const uint32_t row = uint32_t(std::countr_zero(conjunction ? table_ : ~table_));
+    for (uint32_t i = 0; i < size(); ++i)
+      out[i] = half_spaces_[i].half_space * 2 + ((row >> i & 1) == uint32_t(conjunction) ? 0 : 1);
+    return conjunction ? CellKind::kConjunction : CellKind::kDisjunction;
+  }
+  bool has_and = false, has_or = false;
+  std::fill(out.begin(), out.end(), Literal(UINT32_MAX));
+  for (const Token token : formula_) {
+    if (token.is_group()) {
+      if (!token.is_pass()) (token.kind() == TokenKind::kAnd ? has_and : has_or) = true;
+      continue;
+    }
+    const Literal literal = scene_.faces[token.payload()].literal ^ Literal(token.negated());
+    Literal& known = out[position(literal >> 1)];
+    // A literal beside its own complement: a constant that no table has found.
+    if (known != UINT32_MAX && known != literal) return CellKind::kProgram;
+    known = literal;
+  }
+  if (has_and == has_or) return CellKind::kProgram;
+  return has_and ? CellKind::kConjunction : CellKind::kDisjunction;
+}
+
+Cell LeafAnalysis::append_to(CellTree& tree) {
+  Leaf leaf;
+  leaf.first_literal = uint32_t(tree.literals.size());
+  leaf.literal_count = size();
+  const CellKind kind = signs(signs_);
+  const bool signed_literals = kind == CellKind::kConjunction || kind == CellKind::kDisjunction;
+  bool shared = false;
+  for (uint32_t i = 0; i < size(); ++i) {
+    const Used& used = half_spaces_[i];
+    const uint32_t owner = used.owner == 0 ? kSharedOwner : scene_.units[used.owner - 1].id;
+    shared |= owner == kSharedOwner;
+    tree.literals.push_back({signed_literals ? signs_[i] : used.half_space * 2, owner});
+  }
+  if (kind == CellKind::kTable) leaf.table = table_;
+  if (kind == CellKind::kProgram) {
+    leaf.first_step = uint32_t(tree.steps.size());
+    append_program(tree);
+    leaf.step_count = uint32_t(tree.steps.size()) - leaf.first_step;
+  }
+  if (shared) {
+    leaf.first_token = uint32_t(tree.tokens.size());
+    leaf.token_count = uint32_t(formula_.size());
+    tree.tokens.insert(tree.tokens.end(), formula_.begin(), formula_.end());
+  }
+  Cell cell;
+  cell.kind = kind;
+  cell.index = uint32_t(tree.leaves.size());
+  tree.leaves.push_back(leaf);
+  return cell;
+}
+
+void LeafAnalysis::append_program(CellTree& tree) const {
+  // A literal's step number is the number of literals before it, so the place where an operand ends
+  // tells the step that follows it.
+  std::vector<uint32_t> step_at(formula_.size() + 1, 0);
+  for (size_t i = 0; i < formula_.size(); ++i)
+    step_at[i + 1] = step_at[i] + (formula_[i].is_group() ? 0 : 1);
+  struct Open {
+    size_t end;
+    bool conjunction;
+    uint32_t on_true, on_false;
+  };
+  std::vector<Open> open{{formula_.size(), true, kAnswerTrue, kAnswerFalse}};
+  for (size_t i = 0; i < formula_.size(); ++i) {
+    while (open.back().end == i) open.pop_back();
+    const Token token = formula_[i];
+    if (token.is_pass()) continue;
+    // Where to go once this operand's value is known: a group that it decides goes to its own
+    // target, else to the next operand.
+    const Open group = open.back();
+    const size_t end = token.is_group() ? i + token.payload() : i + 1;
+    const bool last = end == group.end;
+    const uint32_t next = step_at[end];
+    const uint32_t on_true = group.conjunction && !last ? next : group.on_true;
+    const uint32_t on_false = group.conjunction || last ? group.on_false : next;
+    if (token.is_group()) {
+      open.push_back({end, token.kind() == TokenKind::kAnd, on_true, on_false});
+    } else {
+      const Literal literal = scene_.faces[token.payload()].literal;
+      const bool complement = bool(literal & 1) != token.negated();
+      tree.steps.push_back({position(literal >> 1) * 2 + complement, on_true, on_false});
+    }
+  }
+}
+
+}  // namespace whittle

@@ -1,0 +1,49 @@
+// Subdivision: from a formula and a box to cells.
+//
+// Based on: the paper, section 2 (binary subdivision, each cell's tree simplified from its parent's).
+// What we changed: literals are half-spaces; a leaf holds up to k of them, simplified completely by its
+// truth table where there are at most six; no leaf is dropped unless asked for; sub-trees are built in
+// parallel, and the result does not depend on the number of threads.
+#pragma once
+
+#include <functional>
+
+#include "subdivide/cells.h"
+
+namespace whittle {
+
+enum class SplitRule {
+  kLongest,  ///< the longest edge, in the middle
+  kXyz,      ///< X, Y, Z in turn, in the middle: the paper's
+};
+
+enum class LeafRule {
+  kHalfSpaces,  ///< at most leaf_size half-spaces
+  kPrimitives,  ///< the paper's: at most leaf_size primitives, or a union of any number
+};
+
+struct SubdivideSettings {
+  uint32_t leaf_size = 4;
+  SplitRule split = SplitRule::kLongest;
+  LeafRule leaf = LeafRule::kHalfSpaces;
+  /// A cell's edge is at least this share of the region's longest edge.
+  double smallest_edge = 1.0 / 16384;
+  /// If set: a cell (world coordinates) for which this holds is not split any more. The paper's
+  /// pixel threshold makes cells depend on the camera.
+  std::function<bool(const Box&)> is_small;
+  /// Drop the leaves that `is_small` or `smallest_edge` stopped, as the paper did.
+  bool ignore_small = false;
+  /// Beyond about so many cells none is split any more: leaves get longer formulas instead.
+  size_t max_cells = size_t(1) << 27;
+  int threads = 0;  ///< 0: all
+};
+
+/// How far a cell is grown before anything is classified against it, as a share of the region's
+/// longest edge. Far above the rounding of a ray's entry and exit (1e-15), far below anything seen;
+/// it puts a surface that lies exactly on a split into both cells, so no ray slips between them.
+inline constexpr double kCellMargin = 1e-10;
+
+/// Never fails; memory is bounded by max_cells. `scene` must outlive the result's use.
+CellTree subdivide(const Scene& scene, const SubdivideSettings& settings);
+
+}  // namespace whittle

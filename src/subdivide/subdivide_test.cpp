@@ -1,0 +1,389 @@
+#include "subdivide/subdivide.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <random>
+#include <string>
+
+#include "io/read.h"
+#include "lower/evaluate.h"
+#include "lower/lower.h"
+#include "subdivide/leaf.h"
+#include "subdivide/simplify.h"
+#include "support/random_tree.h"
+
+namespace whittle {
+namespace {
+
+Scene lowered(const std::string& text) {
+  Result<Read> read = read_csg(text, "test.csg");
+  EXPECT_TRUE(read) << read.error().message;
+  Result<Scene> scene = lower(read->model);
+  EXPECT_TRUE(scene) << scene.error().message;
+  return *std::move(scene);
+}
+
+/// Random points of a box, and some on its sides and corners.
+class Points {
+ public:
+  explicit Points(uint64_t seed) : random_(seed) {}
+  Vec3 in(const Box& box) {
+    Vec3 p;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double u = random_() % 8 == 0 ? double(random_() % 2) : unit_(random_);
+      p[axis] = box.lo[axis] + u * (box.hi[axis] - box.lo[axis]);
+    }
+    return max(box.lo, min(p, box.hi));
+  }
+  Box box_in(const Box& box) {
+    Box b;
+    b.include(in(box)), b.include(in(box));
+    return b;
+  }
+
+ private:
+  std::mt19937_64 random_;
+  std::uniform_real_distribution<double> unit_{0, 1};
+};
+
+/// True if the point is so near to a surface that two roundings of it may differ.
+bool near_a_surface(const Scene& scene, Vec3 p) {
+  for (const HalfSpace& h : scene.half_spaces)
+    if (std::fabs(Kernels<double>::quadric_value(h.f, p - h.center)) < 1e-9 * (1 + length(p)))
+      return true;
+  return false;
+}
+
+/// The solid at a point, by the leaf's own representation.
+bool leaf_value(const Scene& scene, const CellTree& tree, const Cell& cell, Vec3 p) {
+  if (cell.kind == CellKind::kEmpty || cell.kind == CellKind::kFull)
+    return cell.kind == CellKind::kFull;
+  const Leaf& leaf = tree.leaves[cell.index];
+  uint64_t state = 0;
+  size_t true_literals = 0;
+  std::vector<bool> inside;
+  for (uint32_t i = 0; i < leaf.literal_count; ++i) {
+    const Literal literal = tree.literals[leaf.first_literal + i].literal;
+    inside.push_back(contains(scene.half_spaces[literal >> 1], p));
+    if (i < 64) state |= uint64_t(inside[i]) << i;
+    true_literals += contains(scene, literal, p);
+  }
+  switch (cell.kind) {
+    case CellKind::kConjunction:
+      return true_literals == leaf.literal_count;
+    case CellKind::kDisjunction:
+      return true_literals > 0;
+    case CellKind::kTable:
+      return leaf.table >> state & 1;
+    default: {
+      uint32_t at = 0;
+      while (at < kAnswerFalse) {
+        const Step& step = tree.steps[leaf.first_step + at];
+        at = inside[step.literal >> 1] != (step.literal & 1) ? step.on_true : step.on_false;
+      }
+      return at == kAnswerTrue;
+    }
+  }
+}
+
+/// Calls visit(cell, box) for every leaf.
+template <class Visit>
+void for_leaves(const CellTree& tree, Visit&& visit) {
+  struct Item {
+    uint32_t cell;
+    Box box;
+  };
+  std::vector<Item> stack{{0, tree.region}};
+  while (!stack.empty()) {
+    const Item item = stack.back();
+    stack.pop_back();
+    const Cell& cell = tree.cells[item.cell];
+    if (cell.kind != CellKind::kNode) {
+      visit(cell, item.box);
+      continue;
+    }
+    Item low{cell.index, item.box}, high{cell.index + 1, item.box};
+    low.box.hi[cell.axis] = high.box.lo[cell.axis] = cell.split;
+    stack.push_back(high);
+    stack.push_back(low);
+  }
+}
+
+TEST(Classify, InsideAndOutsideAreNeverWrong) {
+  Points points(3);
+  for (uint64_t seed = 0; seed < 100; ++seed) {
+    const Scene scene = lowered(random_tree_text({.seed = seed}));
+    for (const HalfSpace& h : scene.half_spaces) {
+      const Box box = points.box_in(scene.region);
+      const Side side = classify(h, CellBox(box, 0));
+      if (side == Side::kCrosses) continue;
+      for (int i = 0; i < 20; ++i)
+        ASSERT_EQ(contains(h, points.in(box)), side == Side::kInside) << seed;
+    }
+  }
+}
+
+TEST(Classify, BoundsOfAPrimitiveAreNeverWrong) {
+  Points points(4);
+  const Scene scene = lowered("rotate([10,20,30]) sphere(10, $fn = 24);");
+  ASSERT_GT(scene.units[0].inner_radius, 5);
+  int proofs = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Box box = points.box_in(scene.region);
+    const Side side = classify_bounds(scene.units[0], CellBox(box, 0));
+    if (side == Side::kCrosses) continue;
+    ++proofs;
+    for (int j = 0; j < 8; ++j)
+      ASSERT_EQ(contains(scene, scene.formula, points.in(box)), side == Side::kInside);
+  }
+  EXPECT_GT(proofs, 100);
+}
+
+TEST(Simplify, KeepsTheValueInsideTheCell) {
+  Points points(5);
+  int shorter = 0, constant = 0;
+  for (uint64_t seed = 0; seed < 300; ++seed) {
+    const Scene scene = lowered(random_tree_text({.seed = seed}));
+    if (scene.region.is_empty()) continue;
+    Simplifier simplifier(scene, 0);
+    Formula outer, inner;
+    const Box box = points.box_in(scene.region);
+    const Truth truth = simplifier.simplify(scene.formula, box, seed % 2, outer);
+    shorter += outer.size() < scene.formula.size();
+    constant += truth != Truth::kVaries;
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p = points.in(box);
+      const bool whole = contains(scene, scene.formula, p);
+      if (truth == Truth::kVaries)
+        ASSERT_EQ(contains(scene, outer, p), whole) << seed;
+      else
+        ASSERT_EQ(truth == Truth::kTrue, whole) << seed;
+    }
+    if (truth != Truth::kVaries) continue;
+    // From the parent's formula as from the whole one.
+    const Box child = points.box_in(box);
+    const Truth child_truth = simplifier.simplify(outer, child, true, inner);
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p = points.in(child);
+      const bool whole = contains(scene, scene.formula, p);
+      if (child_truth == Truth::kVaries)
+        ASSERT_EQ(contains(scene, inner, p), whole) << seed;
+      else
+        ASSERT_EQ(child_truth == Truth::kTrue, whole) << seed;
+    }
+  }
+  EXPECT_GT(shorter, 100);
+  EXPECT_GT(constant, 10);
+}
+
+/// The formula with its pass headers left out: they mean nothing by themselves.
+Formula bare(const Formula& formula) {
+  Formula result;
+  for (const Token token : formula)
+    if (!token.is_pass()) result.push_back(token.is_group() ? Token::make(token.kind(), 0) : token);
+  return result;
+}
+
+TEST(Simplify, TwiceIsOnce) {
+  Points points(6);
+  for (uint64_t seed = 0; seed < 300; ++seed) {
+    const Scene scene = lowered(random_tree_text({.seed = seed}));
+    if (scene.region.is_empty()) continue;
+    Simplifier simplifier(scene, 0);
+    Formula once, twice, thrice;
+    const Box box = points.box_in(scene.region);
+    if (simplifier.simplify(scene.formula, box, true, once) != Truth::kVaries) continue;
+    ASSERT_EQ(simplifier.simplify(once, box, true, twice), Truth::kVaries);
+    EXPECT_EQ(bare(once).size(), bare(twice).size()) << seed;
+    ASSERT_EQ(simplifier.simplify(twice, box, true, thrice), Truth::kVaries);
+    EXPECT_EQ(twice, thrice) << seed;
+  }
+}
+
+TEST(Simplify, AGroupLeftWithOneOperandJoinsTheGroupAround) {
+  // Or(a, And(b, Or(c, d))) where b is everywhere and c nowhere in the cell: Or(a, d).
+  const Scene scene = lowered(
+      "union(){ sphere(1); intersection(){ cube(100, center = true);"
+      " union(){ translate([50,0,0]) sphere(1); translate([1,0,0]) sphere(1); } } }");
+  Simplifier simplifier(scene, 0);
+  Formula out;
+  const Box cell{Vec3{0.4, -0.5, -1} - scene.origin, Vec3{0.6, 0.5, 1} - scene.origin};
+  ASSERT_EQ(simplifier.simplify(scene.formula, cell, true, out), Truth::kVaries);
+  LeafAnalysis leaf(scene);
+  leaf.analyse(out);
+  EXPECT_EQ(leaf.size(), 2u);
+  CellTree tree;
+  EXPECT_EQ(leaf.append_to(tree).kind, CellKind::kDisjunction);
+}
+
+TEST(Leaf, TablesAreSimplifiedCompletely) {
+  // (a and b) or (a and not b) is a; a and not a is nothing.
+  const Scene same = lowered(
+      "union(){ intersection(){ sphere(5); translate([3,0,0]) sphere(5); }"
+      " difference(){ sphere(5); translate([3,0,0]) sphere(5); } }");
+  LeafAnalysis leaf(same);
+  leaf.analyse(same.formula);
+  ASSERT_EQ(leaf.size(), 1u);
+  CellTree tree;
+  const Cell cell = leaf.append_to(tree);
+  EXPECT_EQ(cell.kind, CellKind::kConjunction);
+  EXPECT_EQ(tree.literals[0].literal, 0u);
+
+  const Scene nothing = lowered("difference(){ sphere(5); sphere(5); }");
+  LeafAnalysis constant(nothing);
+  constant.analyse(nothing.formula);
+  EXPECT_EQ(constant.size(), 0u);
+  EXPECT_FALSE(constant.constant_value());
+}
+
+TEST(Leaf, SharedFacesHaveNoOwnerOfTheirOwn) {
+  const Scene scene = lowered("sphere(5); sphere(5);");
+  LeafAnalysis leaf(scene);
+  leaf.analyse(scene.formula);
+  CellTree tree;
+  leaf.append_to(tree);
+  ASSERT_EQ(tree.literals.size(), 1u);
+  EXPECT_EQ(tree.literals[0].owner, kSharedOwner);
+  EXPECT_EQ(tree.tokens.size(), 3u);
+}
+
+struct Rules {
+  std::string name;
+  SubdivideSettings settings;
+};
+
+std::vector<Rules> all_rules() {
+  std::vector<Rules> rules;
+  for (const uint32_t k : {1u, 2u, 4u, 6u, 8u, 16u}) {
+    SubdivideSettings settings;
+    settings.leaf_size = k;
+    rules.push_back({"k=" + std::to_string(k), settings});
+  }
+  SubdivideSettings paper;
+  paper.leaf_size = 2, paper.split = SplitRule::kXyz, paper.leaf = LeafRule::kPrimitives;
+  rules.push_back({"paper", paper});
+  SubdivideSettings coarse;
+  coarse.leaf_size = 2, coarse.smallest_edge = 0.1;
+  rules.push_back({"coarse", coarse});
+  SubdivideSettings poor;
+  poor.leaf_size = 2, poor.max_cells = 100;
+  rules.push_back({"100 cells", poor});
+  return rules;
+}
+
+TEST(Subdivide, EveryLeafIsRightInItsCell) {
+  Points points(7);
+  std::array<uint64_t, kCellKinds> kinds{};
+  for (uint64_t seed = 0; seed < 40; ++seed) {
+    const Scene scene =
+        lowered(random_tree_text({.seed = seed, .primitives = 20, .coincident = seed % 2 == 0}));
+    if (scene.region.is_empty()) continue;
+    for (const Rules& rules : all_rules()) {
+      const CellTree tree = subdivide(scene, rules.settings);
+      for (size_t i = 0; i < kinds.size(); ++i) kinds[i] += tree.stats.cells[i];
+      uint32_t number = 0;
+      for_leaves(tree, [&](const Cell& cell, const Box& box) {
+        if (++number % 7 != 0) return;
+        const Vec3 p = points.in(box);
+        if (near_a_surface(scene, p)) return;
+        ASSERT_EQ(leaf_value(scene, tree, cell, p), contains(scene, scene.formula, p))
+            << rules.name << " seed " << seed << " kind " << int(cell.kind);
+      });
+    }
+  }
+  for (const CellKind kind : {CellKind::kNode, CellKind::kEmpty, CellKind::kFull,
+                              CellKind::kConjunction, CellKind::kDisjunction, CellKind::kTable,
+                              CellKind::kProgram})
+    EXPECT_GT(kinds[size_t(kind)], 0u) << int(kind);
+  EXPECT_EQ(kinds[size_t(CellKind::kIgnored)], 0u);
+}
+
+TEST(Subdivide, LeavesHoldAtMostKWhereCellsMayShrink) {
+  const Scene scene = lowered(
+      "difference(){cylinder(r=10,h=20); translate([5,0,10]) sphere(4);"
+      " translate([-5,0,10]) sphere(4); translate([0,5,10]) sphere(4);}");
+  for (const uint32_t k : {3u, 4u, 6u}) {
+    SubdivideSettings settings;
+    settings.leaf_size = k;
+    const CellTree tree = subdivide(scene, settings);
+    for (const Leaf& leaf : tree.leaves) EXPECT_LE(leaf.literal_count, k);
+    EXPECT_FALSE(tree.leaves.empty());
+  }
+}
+
+bool same(const CellTree& a, const CellTree& b) {
+  const auto equal = [](const auto& x, const auto& y, auto&& equal_item) {
+    return x.size() == y.size() && std::equal(x.begin(), x.end(), y.begin(), equal_item);
+  };
+  return equal(a.cells, b.cells,
+               [](const Cell& x, const Cell& y) {
+                 return x.kind == y.kind && x.index == y.index && x.axis == y.axis &&
+                        x.split == y.split;
+               }) &&
+         equal(a.literals, b.literals,
+               [](const LeafLiteral& x, const LeafLiteral& y) {
+                 return x.literal == y.literal && x.owner == y.owner;
+               }) &&
+         equal(a.leaves, b.leaves,
+               [](const Leaf& x, const Leaf& y) {
+                 return x.table == y.table && x.first_literal == y.first_literal &&
+                        x.first_step == y.first_step && x.first_token == y.first_token;
+               }) &&
+         a.tokens == b.tokens;
+}
+
+TEST(Subdivide, DoesNotDependOnTheNumberOfThreads) {
+  for (uint64_t seed = 0; seed < 10; ++seed) {
+    const Scene scene = lowered(random_tree_text({.seed = seed, .primitives = 60}));
+    SubdivideSettings one, four;
+    one.threads = 1, four.threads = 4;
+    EXPECT_TRUE(same(subdivide(scene, one), subdivide(scene, four))) << seed;
+  }
+}
+
+TEST(Subdivide, CoincidentFacesLeaveNothingBehind) {
+  // A - A is empty everywhere, although no cell is proved empty by bounds.
+  const Scene scene = lowered("difference(){cube(10); cube(10);}");
+  const CellTree tree = subdivide(scene, {});
+  EXPECT_EQ(tree.leaves.size(), 0u);
+  EXPECT_EQ(tree.stats.cells[size_t(CellKind::kFull)], 0u);
+}
+
+TEST(Subdivide, PaperRulesTakeUnionsOfAnyNumberAsLeaves) {
+  SubdivideSettings paper;
+  paper.leaf_size = 2, paper.split = SplitRule::kXyz, paper.leaf = LeafRule::kPrimitives;
+  const Scene spheres = lowered(
+      "sphere(5); translate([1,0,0]) sphere(5); translate([0,1,0]) sphere(5);"
+      "translate([0,0,1]) cube(6);");
+  EXPECT_EQ(subdivide(spheres, paper).cells.size(), 1u);
+  const Scene cut = lowered(
+      "difference(){sphere(5); translate([1,0,0]) sphere(5); translate([0,1,0]) sphere(5);}");
+  EXPECT_GT(subdivide(cut, paper).cells.size(), 1u);
+}
+
+TEST(Subdivide, SmallCellsAreIgnoredOnlyIfAskedFor) {
+  // Three spheres meet in points: no cell there is ever simple.
+  const Scene scene = lowered(
+      "difference(){sphere(5); translate([1,0,0]) sphere(5); translate([0,1,0]) sphere(5);}");
+  SubdivideSettings settings;
+  settings.leaf_size = 2;
+  settings.is_small = [](const Box& box) { return max_component(box.size()) < 0.5; };
+  EXPECT_EQ(subdivide(scene, settings).stats.cells[size_t(CellKind::kIgnored)], 0u);
+  settings.ignore_small = true;
+  EXPECT_GT(subdivide(scene, settings).stats.cells[size_t(CellKind::kIgnored)], 0u);
+}
+
+TEST(Subdivide, StatisticsCountWhatIsThere) {
+  const Scene scene = lowered("difference(){cube(10); sphere(3);}");
+  const CellTree tree = subdivide(scene, {});
+  uint64_t cells = 0, leaves = 0;
+  for (const uint64_t n : tree.stats.cells) cells += n;
+  for (const uint64_t n : tree.stats.leaves_by_size) leaves += n;
+  EXPECT_EQ(cells, tree.cells.size());
+  EXPECT_EQ(leaves, tree.leaves.size());
+  EXPECT_GE(tree.stats.memory_bytes, cells * sizeof(Cell));
+}
+
+}  // namespace
+}  // namespace whittle

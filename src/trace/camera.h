@@ -1,0 +1,27 @@
+// The camera: from pixel positions to rays. Conventions are OpenSCAD's (docs/conventions.md).
+#pragma once
+
+#include "trace/frame.h"
+
+namespace whittle {
+
+/// A camera with its picture size. right, up and forward are unit and orthogonal.
+struct Camera {
+  Vec3 eye;
+  Vec3 right{1, 0, 0}, up{0, 0, 1}, forward{0, 1, 0};
+  bool orthographic = false;
+  double half_height = 1;  ///< perspective: tan(fov / 2); orthographic: model units
+  double ortho_reach = 0;  ///< orthographic: rays start this far behind the eye's plane
+  int width = 512, height = 512;
+
+  /// The ray through picture position (px, py) in pixels: (0, 0) is the top left corner of the
+  /// picture, pixel (i, j) has its centre at (i + 0.5, j + 0.5); pixels are square.
+  Ray ray(double px, double py) const {
+    const double s = 2 * half_height / height;
+    const double x = (px - 0.5 * width) * s, y = (0.5 * height - py) * s;
+    if (orthographic) return {eye + right * x + up * y, forward, -ortho_reach};
+    return {eye, normalize(forward + right * x + up * y), 0};
+  }
+};
+
+}  // namespace whittle

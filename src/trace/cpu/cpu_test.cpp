@@ -1,0 +1,133 @@
+#include "trace/cpu/cpu.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "io/read.h"
+#include "lower/lower.h"
+#include "subdivide/subdivide.h"
+
+namespace whittle {
+namespace {
+
+/// A model ready to be traced with given rules.
+struct Traced {
+  explicit Traced(const std::string& text, const SubdivideSettings& settings = {}) {
+    Result<Read> read = read_csg(text, "test.csg");
+    EXPECT_TRUE(read) << read.error().message;
+    scene = *lower(read->model);
+    cells = subdivide(scene, settings);
+    tracer = make_cpu_tracer(scene, cells);
+  }
+  Traced(const Traced&) = delete;
+
+  /// The hit of one ray.
+  Hit hit(Vec3 from, Vec3 to) {
+    Camera camera;
+    camera.eye = from;
+    camera.forward = normalize(to - from);
+    camera.right = normalize(cross(camera.forward, std::fabs(camera.forward.z) < 0.9
+                                                       ? Vec3{0, 0, 1}
+                                                       : Vec3{1, 0, 0}));
+    camera.up = cross(camera.right, camera.forward);
+    camera.width = camera.height = 1;
+    return tracer->render(camera, {}).at(0, 0);
+  }
+
+  Scene scene;
+  CellTree cells;
+  std::unique_ptr<CpuTracer> tracer;
+};
+
+void expect_hit(const Hit& hit, double distance, uint32_t id, Vec3 normal) {
+  EXPECT_EQ(hit.id, id);
+  EXPECT_NEAR(hit.distance, distance, 1e-5 * distance);
+  EXPECT_NEAR(hit.normal.x, normal.x, 1e-6);
+  EXPECT_NEAR(hit.normal.y, normal.y, 1e-6);
+  EXPECT_NEAR(hit.normal.z, normal.z, 1e-6);
+}
+
+TEST(Cpu, ASphereIsHitWhereItIs) {
+  Traced sphere("sphere(2);");
+  expect_hit(sphere.hit({10, 0, 0}, {0, 0, 0}), 8, 1, {1, 0, 0});
+  expect_hit(sphere.hit({10, 0, std::sqrt(3.0)}, {0, 0, std::sqrt(3.0)}), 9, 1,
+             {0.5, 0, std::sqrt(0.75)});
+  EXPECT_FALSE(sphere.hit({10, 0, 2.001}, {0, 0, 2.001}).hit());
+  EXPECT_FALSE(sphere.hit({10, 0, 0}, {20, 0, 0}).hit());
+}
+
+TEST(Cpu, TheEyeMayBeAnywhere) {
+  Traced model("difference(){cube(10, center = true); sphere(3);}");
+  // Outside; in the subtracted sphere (which is empty space); in the material.
+  expect_hit(model.hit({20, 1, 0}, {0, 1, 0}), 15, 1, {1, 0, 0});
+  expect_hit(model.hit({0, 0, 0}, {1, 0, 0}), 3, 2, {-1, 0, 0});
+  expect_hit(model.hit({4, 0, 0}, {5, 0, 0}), 1, 1, {1, 0, 0});
+  expect_hit(model.hit({4, 0, 0}, {0, 0, 0}), 1, 2, {-1, 0, 0});
+}
+
+TEST(Cpu, FlushPocketsHaveNoLid) {
+  Traced model("difference(){cube(10); translate([2,2,5]) cube([6,6,5]);}");
+  expect_hit(model.hit({5, 5, 20}, {5, 5, 0}), 15, 2, {0, 0, 1});
+  expect_hit(model.hit({1, 1, 20}, {1, 1, 0}), 10, 1, {0, 0, 1});
+}
+
+TEST(Cpu, OfCoincidentFacesTheEarlierStatementOwns) {
+  Traced both("translate([5,0,0]) cube(10); cube(10);");
+  expect_hit(both.hit({7, 5, 20}, {7, 5, 0}), 10, 1, {0, 0, 1});
+  expect_hit(both.hit({2, 5, 20}, {2, 5, 0}), 10, 2, {0, 0, 1});
+  // The earlier statement's face is there, but its material is cut away below it: it is not seen.
+  Traced cut("difference(){cube(10); translate([5,-1,-1]) cube(20);} cube(10);");
+  expect_hit(cut.hit({7, 5, 20}, {7, 5, 0}), 10, 3, {0, 0, 1});
+  expect_hit(cut.hit({2, 5, 20}, {2, 5, 0}), 10, 1, {0, 0, 1});
+  // A cutter that lies on the material takes nothing, and owns nothing.
+  Traced resting("difference(){cube(10); translate([0,0,10]) cube(10);}");
+  expect_hit(resting.hit({5, 5, 30}, {5, 5, 0}), 20, 1, {0, 0, 1});
+}
+
+TEST(Cpu, FacesOnSplitsAreNotLost) {
+  // The splits of a symmetric region fall on x = 0, and so does a face of each.
+  SubdivideSettings fine;
+  fine.leaf_size = 1;
+  Traced model("cube([10,10,10]); translate([-10,0,0]) sphere(1); translate([-10,5,5]) cube(4);"
+               "translate([-10,-10,-10]) cube([10,10,10]);",
+               fine);
+  expect_hit(model.hit({-5, 5, 2}, {0, 5, 2}), 5, 1, {-1, 0, 0});
+  expect_hit(model.hit({5, -5, -5}, {0, -5, -5}), 5, 4, {1, 0, 0});
+  EXPECT_EQ(model.tracer->stats().disagreements, 0u);
+}
+
+TEST(Cpu, RaysAlongAxesFacesAndSplitsEnd) {
+  Traced model("cube(10, center = true); translate([0,0,5]) sphere(3);");
+  expect_hit(model.hit({0, 0, 20}, {0, 0, 0}), 12, 2, {0, 0, 1});
+  expect_hit(model.hit({20, 0, 0}, {0, 0, 0}), 15, 1, {1, 0, 0});
+  EXPECT_FALSE(model.hit({20, 5.001, 0}, {0, 5.001, 0}).hit());
+}
+
+TEST(Cpu, HalfspacesReachAsFarAsOneLooks) {
+  Traced ground("halfspace(n = [0,0,1], d = 0); translate([0,0,5]) sphere(1);");
+  expect_hit(ground.hit({0, 0, 20}, {0, 0, 0}), 14, 2, {0, 0, 1});
+  expect_hit(ground.hit({100, 0, 20}, {100, 0, 0}), 20, 1, {0, 0, 1});
+  // From below one looks out of the material, at the surface from inside.
+  expect_hit(ground.hit({100, 0, -20}, {100, 0, 0}), 20, 1, {0, 0, 1});
+}
+
+TEST(Cpu, AnEmptyModelShowsNothing) {
+  Traced nothing("difference(){group(); cube(10);}");
+  EXPECT_FALSE(nothing.hit({20, 5, 5}, {0, 5, 5}).hit());
+  Traced cancelled("difference(){cube(10); cube(10);}");
+  EXPECT_FALSE(cancelled.hit({20, 5, 5}, {0, 5, 5}).hit());
+}
+
+TEST(Cpu, IgnoredCellsAreHoles) {
+  SubdivideSettings settings;
+  settings.leaf_size = 1;
+  settings.ignore_small = true;
+  settings.is_small = [](const Box&) { return true; };
+  Traced model("difference(){sphere(5); translate([1,0,0]) sphere(5);}", settings);
+  EXPECT_FALSE(model.hit({-20, 0, 0}, {0, 0, 0}).hit());
+}
+
+}  // namespace
+}  // namespace whittle

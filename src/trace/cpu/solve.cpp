@@ -1,0 +1,196 @@
+#include "trace/cpu/solve.h"
+
+#include <limits>
+
+#include "base/result.h"
+#include "lower/evaluate.h"
+
+namespace whittle {
+namespace {
+
+using K = Kernels<double>;
+
+bool literal_value(const LeafLiteral& literal, bool is_inside) {
+  return is_inside != bool(literal.literal & 1);
+}
+
+}  // namespace
+
+void LeafSolver::add_crossing(double t, double t0, double t1, uint32_t literal) {
+  if (t <= t0) {
+    if (t > latest_.t) latest_ = {t, literal};
+    return;
+  }
+  if (!(t <= t1)) return;
+  // Insertion keeps the list sorted; it is short, and equal times stay in the literals' order.
+  size_t at = crossings_.size();
+  crossings_.push_back({t, literal});
+  for (; at > 0 && crossings_[at - 1].t > t; --at) crossings_[at] = crossings_[at - 1];
+  crossings_[at] = {t, literal};
+}
+
+void LeafSolver::cross(std::span<const LeafLiteral> literals, const LocalRay& ray, double t0,
+                       double t1) {
+  crossings_.clear();
+  is_inside_.resize(literals.size());
+  latest_ = {-std::numeric_limits<double>::infinity(), 0};
+  for (uint32_t i = 0; i < literals.size(); ++i) {
+    const HalfSpace& h = scene_.half_spaces[literals[i].literal >> 1];
+    const Vec3 o = ray.origin - h.center;
+    if (h.plane) {
+      const double slope = dot(h.f.b, ray.direction), start = dot(h.f.b, o);
+      if (slope == 0) {
+        is_inside_[i] = start <= 0;
+        continue;
+      }
+      const double t = -start / slope;
+      is_inside_[i] = (slope > 0) == (t0 < t);
+      add_crossing(t, t0, t1, i);
+    } else {
+      const Vec3 along = K::quadric_along_ray(h.f, o, ray.direction);
+      const K::Roots roots = K::quadratic_roots(along.x, along.y, along.z);
+      is_inside_[i] = roots.outer;
+      if (!roots.crosses) continue;
+      is_inside_[i] = roots.outer != (roots.near_t <= t0 && t0 < roots.far_t);
+      add_crossing(roots.near_t, t0, t1, i);
+      add_crossing(roots.far_t, t0, t1, i);
+    }
+  }
+}
+
+void LeafSolver::start(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals) {
+  state_ = 0;
+  count_ = 0;
+  if (kind == CellKind::kTable)
+    for (uint32_t i = 0; i < leaf.literal_count; ++i) state_ |= uint64_t(is_inside_[i]) << i;
+  else if (kind != CellKind::kProgram)
+    for (uint32_t i = 0; i < leaf.literal_count; ++i)
+      count_ += literal_value(literals[i], is_inside_[i]);
+}
+
+void LeafSolver::flip(CellKind kind, std::span<const LeafLiteral> literals, uint32_t literal) {
+  is_inside_[literal] ^= 1;
+  if (kind == CellKind::kTable)
+    state_ ^= uint64_t(1) << literal;
+  else if (literal_value(literals[literal], is_inside_[literal]))
+    ++count_;
+  else
+    --count_;
+}
+
+bool LeafSolver::value(CellKind kind, const Leaf& leaf,
+                       std::span<const LeafLiteral> literals) const {
+  switch (kind) {
+    case CellKind::kConjunction:
+      return count_ == literals.size();
+    case CellKind::kDisjunction:
+      return count_ > 0;
+    case CellKind::kTable:
+      return leaf.table >> state_ & 1;
+    default: {
+      const Step* steps = &tree_.steps[leaf.first_step];
+      uint32_t at = 0;
+      while (at < kAnswerFalse) {
+        const Step& step = steps[at];
+        at = is_inside_[step.literal >> 1] != (step.literal & 1) ? step.on_true : step.on_false;
+      }
+      return at == kAnswerTrue;
+    }
+  }
+}
+
+bool LeafSolver::first_change(CellKind kind, const Leaf& leaf, const LocalRay& ray, double t0,
+                              double t1, Inside& inside, Change& change) {
+  const std::span<const LeafLiteral> literals(&tree_.literals[leaf.first_literal],
+                                              leaf.literal_count);
+  cross(literals, ray, t0, t1);
+  start(kind, leaf, literals);
+  bool solid = value(kind, leaf, literals);
+  if (inside != Inside::kUnknown && solid != (inside == Inside::kYes) &&
+      latest_.t > -std::numeric_limits<double>::infinity()) {
+    // The change is on the cell's side, and the neighbour's rounding put it on ours.
+    change = describe(leaf, literals, ray, latest_.t, {&latest_, 1}, solid);
+    return true;
+  }
+  for (size_t i = 0; i < crossings_.size();) {
+    const size_t first = i;
+    const double t = crossings_[i].t;
+    for (; i < crossings_.size() && crossings_[i].t == t; ++i)
+      flip(kind, literals, crossings_[i].literal);
+    const bool after = value(kind, leaf, literals);
+    if (after == solid) continue;
+    change = describe(leaf, literals, ray, t,
+                      std::span<const Crossing>(crossings_).subspan(first, i - first), after);
+    return true;
+  }
+  inside = solid ? Inside::kYes : Inside::kNo;
+  return false;
+}
+
+Change LeafSolver::describe(const Leaf& leaf, std::span<const LeafLiteral> literals,
+                            const LocalRay& ray, double t, std::span<const Crossing> group,
+                            bool solid_after) const {
+  const Vec3 point = ray.origin + ray.direction * t;
+  uint32_t literal = group[0].literal;
+  uint32_t id = literals[literal].owner;
+  if (id == kSharedOwner) {
+    const Face& face = owner(leaf, literals, point, group);
+    id = scene_.units[face.unit].id;
+    for (const Crossing& crossing : group)
+      if (literals[crossing.literal].literal >> 1 == face.literal >> 1) literal = crossing.literal;
+  }
+  const HalfSpace& h = scene_.half_spaces[literals[literal].literal >> 1];
+  const Vec3 gradient = normalize(K::quadric_half_gradient(h.f, point - h.center));
+  // The gradient points out of the half-space; that is out of the solid too if both were entered
+  // or both left.
+  return {t, id, bool(is_inside_[literal]) == solid_after ? gradient : -gradient};
+}
+
+const Face& LeafSolver::owner(const Leaf& leaf, std::span<const LeafLiteral> literals, Vec3 point,
+                              std::span<const Crossing> group) const {
+  const std::span<const Token> formula(&tree_.tokens[leaf.first_token], leaf.token_count);
+  // Bit 0: before the change, bit 1: after it.
+  const auto value = [&](Token token) -> uint8_t {
+    const Literal face = scene_.faces[token.payload()].literal;
+    uint8_t both = contains(scene_.half_spaces[face >> 1], point) ? 3 : 0;
+    for (uint32_t i = 0; i < literals.size(); ++i) {
+      if (literals[i].literal >> 1 != face >> 1) continue;
+      both = is_inside_[i] ? 3 : 0;
+      for (const Crossing& crossing : group)
+        if (crossing.literal == i) both ^= 1;
+    }
+    return bool(face & 1) != token.negated() ? uint8_t(both ^ 3) : both;
+  };
+  const auto changes = [&](size_t at, size_t size) {
+    const uint8_t both = evaluate<uint8_t>(formula.subspan(at, size), 3, value);
+    return both == 1 || both == 2;
+  };
+  // Down the tree, at each group into the first operand that changes.
+  size_t at = 0;
+  while (formula[at].is_group()) {
+    if (formula[at].is_pass()) {
+      ++at;
+      continue;
+    }
+    const size_t end = at + formula[at].payload();
+    size_t operand = at + 1, chosen = end;
+    while (operand < end) {
+      if (formula[operand].is_pass()) {
+        ++operand;
+        continue;
+      }
+      const size_t size = formula[operand].is_group() ? formula[operand].payload() : 1;
+      if (changes(operand, size)) {
+        chosen = operand;
+        break;
+      }
+      operand += size;
+    }
+    // A group changes only through an operand; a formula that kept its value is no owner's.
+    WHITTLE_CHECK(chosen < end);
+    at = chosen;
+  }
+  return scene_.faces[formula[at].payload()];
+}
+
+}  // namespace whittle

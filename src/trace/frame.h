@@ -1,0 +1,38 @@
+// Facts: what a ray sees. Every backend fills these; colours are made from them elsewhere.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace whittle {
+
+/// A ray {origin + t * direction : t >= t_min}; the direction is unit, so t is a length.
+struct Ray {
+  Vec3 origin;
+  Vec3 direction;
+  double t_min = 0;
+};
+
+/// The first point with t > t_min at which the ray enters or leaves the solid.
+struct Hit {
+  float distance = std::numeric_limits<float>::infinity();  ///< t, model units; infinity: no hit
+  uint32_t id = 0;  ///< owner primitive (docs/conventions.md, tie rules); 0: no hit
+  Vec3f normal;     ///< unit outward normal of the solid, world space; zero: no hit
+  bool hit() const { return id != 0; }
+};
+
+/// One hit a pixel, rows from the top, each from the left.
+struct Frame {
+  int width = 0, height = 0;
+  std::vector<Hit> hits;  ///< width * height
+
+  Frame() = default;
+  Frame(int w, int h) : width(w), height(h), hits(size_t(w) * size_t(h)) {}
+  const Hit& at(int x, int y) const { return hits[size_t(y) * size_t(width) + size_t(x)]; }
+  Hit& at(int x, int y) { return hits[size_t(y) * size_t(width) + size_t(x)]; }
+};
+
+}  // namespace whittle

@@ -1,0 +1,141 @@
+#include "trace/view.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "model/facets.h"
+
+namespace whittle {
+namespace {
+
+/// Where the eye stands, and the three axes of the picture.
+struct Pose {
+  Vec3 right, up, forward;
+  Vec3 target;
+  double distance = 0;
+};
+
+/// The axes of OpenSCAD's Rx(90 - rx) Ry(-ry) Rz(-rz), which look along +y with z up: the rows of
+/// that matrix are right, forward and up.
+Pose gimbal_pose(Vec3 rotation_degrees, Vec3 target, double distance) {
+  const double cx = sin_degrees(rotation_degrees.x), sx = cos_degrees(rotation_degrees.x);
+  const double cy = cos_degrees(rotation_degrees.y), sy = -sin_degrees(rotation_degrees.y);
+  const double cz = cos_degrees(rotation_degrees.z), sz = -sin_degrees(rotation_degrees.z);
+  return {.right = {cy * cz, -cy * sz, sy},
+          .up = {sx * sz - cx * sy * cz, sx * cz + cx * sy * sz, cx * cy},
+          .forward = {cx * sz + sx * sy * cz, cx * cz - sx * sy * sz, -sx * cy},
+          .target = target,
+          .distance = distance};
+}
+
+/// The vector form. Looking straight down is rotation (0, 0, 0), straight up (180, 0, 180).
+Pose vector_pose(Vec3 eye, Vec3 center) {
+  Pose pose;
+  pose.target = center;
+  pose.distance = length(center - eye);
+  pose.forward = pose.distance > 0 ? (center - eye) / pose.distance : Vec3{0, 0, -1};
+  const double horizontal = std::hypot(pose.forward.x, pose.forward.y);
+  if (horizontal > 0) {
+    pose.right = Vec3{pose.forward.y, -pose.forward.x, 0} / horizontal;
+  } else {
+    pose.right = {pose.forward.z < 0 ? 1.0 : -1.0, 0, 0};
+  }
+  pose.up = cross(pose.right, pose.forward);
+  return pose;
+}
+
+Error camera_error(std::string message) {
+  return {ErrorKind::kUsage, std::move(message)};
+}
+
+}  // namespace
+
+Result<ViewOptions> parse_camera(std::string_view text, ViewOptions base) {
+  std::array<double, 7> v{};
+  size_t count = 0;
+  const std::string quoted = " (--camera=" + std::string(text) + ")";
+  for (std::string_view rest = text;; ++count) {
+    const size_t comma = rest.find(',');
+    std::string_view word = rest.substr(0, comma);
+    while (!word.empty() && (word.front() == ' ' || word.front() == '\t')) word.remove_prefix(1);
+    while (!word.empty() && (word.back() == ' ' || word.back() == '\t')) word.remove_suffix(1);
+    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+    double value = 0;
+    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (code != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
+      return camera_error("Camera setup requires numbers as parameters" + quoted);
+    }
+    if (count < v.size()) v[count] = value;
+    if (comma == std::string_view::npos) break;
+    rest.remove_prefix(comma + 1);
+  }
+  ++count;
+  if (count == 7) {
+    if (v[6] < 0) return camera_error("Camera distance must not be negative" + quoted);
+    base.target = Vec3{v[0], v[1], v[2]};
+    base.rotation_degrees = Vec3{v[3], v[4], v[5]};
+    base.distance = v[6];
+    base.eye = base.center = std::nullopt;
+    return base;
+  }
+  if (count == 6) {
+    base.eye = Vec3{v[0], v[1], v[2]};
+    base.center = Vec3{v[3], v[4], v[5]};
+    base.target = base.rotation_degrees = std::nullopt;
+    base.distance = std::nullopt;
+    return base;
+  }
+  return camera_error(
+      "Camera setup requires either 7 numbers for Gimbal Camera or 6 numbers for Vector Camera" +
+      quoted);
+}
+
+Camera make_camera(const ViewOptions& options, const FileView& file, const Box& framed_box) {
+  WHITTLE_CHECK(options.width > 0 && options.height > 0);
+  const bool vector_given = options.eye || options.center;
+  const bool camera_given =
+      vector_given || options.target || options.rotation_degrees || options.distance;
+  const bool file_given =
+      !camera_given && (file.target || file.rotation_degrees || file.distance || file.fov_degrees);
+  const bool view_all = camera_given ? options.view_all : !file_given;
+  const bool auto_center = camera_given ? options.auto_center : !file_given;
+  const FileView said = file_given ? file
+                                   : FileView{.target = options.target,
+                                              .rotation_degrees = options.rotation_degrees,
+                                              .distance = options.distance,
+                                              .fov_degrees = {}};
+
+  Pose pose;
+  if (vector_given) {
+    const Vec3 center = options.center.value_or(Vec3{});
+    pose = vector_pose(options.eye.value_or(center + Vec3{0, 0, kDefaultDistance}), center);
+  } else {
+    pose = gimbal_pose(said.rotation_degrees.value_or(kDefaultRotationDegrees),
+                       said.target.value_or(Vec3{}), said.distance.value_or(kDefaultDistance));
+  }
+
+  double fov = options.fov_degrees.value_or(said.fov_degrees.value_or(kDefaultFovDegrees));
+  if (!(fov > 0 && fov < 180)) fov = kDefaultFovDegrees;
+  if (view_all && !framed_box.is_empty() && framed_box.is_finite()) {
+    if (auto_center) pose.target = framed_box.center();
+    const double radius = length(framed_box.center() - pose.target) + framed_box.diagonal() / 2;
+    if (radius > 0) pose.distance = radius / sin_degrees(fov / 2);
+  }
+
+  const double tangent = std::tan(fov / 2 * (std::acos(-1.0) / 180));
+  Camera camera;
+  camera.right = pose.right;
+  camera.up = pose.up;
+  camera.forward = pose.forward;
+  camera.eye = pose.target - pose.forward * pose.distance;
+  camera.orthographic = options.orthographic;
+  camera.half_height = options.orthographic ? pose.distance * tangent : tangent;
+  camera.ortho_reach = options.orthographic ? kOrthographicReach * pose.distance : 0;
+  camera.width = options.width;
+  camera.height = options.height;
+  return camera;
+}
+
+}  // namespace whittle

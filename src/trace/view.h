@@ -1,0 +1,50 @@
+// OpenSCAD's framing: from what a user says about the view to a Camera.
+//
+// The rules are those of OpenSCAD's Camera.cc and openscad.cc (2021.01), re-described and checked
+// against its pictures: two forms of --camera, view-all, auto-centre, and the file's $vp*
+// variables.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "base/box.h"
+#include "base/result.h"
+#include "model/model.h"
+#include "trace/camera.h"
+
+namespace whittle {
+
+/// OpenSCAD's view when nobody says anything: $vpr, $vpd and $vpf of a new document.
+inline constexpr Vec3 kDefaultRotationDegrees{55, 0, 25};
+inline constexpr double kDefaultDistance = 140;
+inline constexpr double kDefaultFovDegrees = 22.5;
+/// How far behind the eye's plane orthographic rays start, in eye-to-target distances.
+inline constexpr double kOrthographicReach = 100;
+
+/// What the command line says about the view. If any of target, rotation_degrees, distance, eye and
+/// center is set, a camera was given: the file's $vp* do not count, and what is missing has
+/// OpenSCAD's defaults. eye and center win over the other three.
+struct ViewOptions {
+  std::optional<Vec3> target;            ///< the point looked at
+  std::optional<Vec3> rotation_degrees;  ///< OpenSCAD's Euler angles; (0, 0, 0) looks straight down
+  std::optional<double> distance;        ///< from eye to target, model units
+  std::optional<Vec3> eye, center;       ///< the vector form: from eye to center, +z up
+  bool view_all = false;                 ///< choose the distance so that the box fits
+  bool auto_center = false;              ///< with view_all: look at the middle of the box
+  bool orthographic = false;
+  std::optional<double> fov_degrees;  ///< vertical, in (0, 180); unset: $vpf, else 22.5
+  int width = 512, height = 512;      ///< pixels, positive
+};
+
+/// Reads the text of --camera into `base`: seven numbers `tx,ty,tz,rx,ry,rz,d` (target, degrees,
+/// distance) or six `ex,ey,ez,cx,cy,cz` (eye and centre). Anything else is a kUsage error.
+Result<ViewOptions> parse_camera(std::string_view text, ViewOptions base = {});
+
+/// The camera that OpenSCAD would use. `framed_box` is what view-all fits. Without a camera and
+/// without $vp* in the file, view-all and auto-centre are both on; $vp* without a camera turn both
+/// off, even if asked for. An empty or infinite box is not fitted: the distance and the target
+/// stay.
+Camera make_camera(const ViewOptions& options, const FileView& file, const Box& framed_box);
+
+}  // namespace whittle

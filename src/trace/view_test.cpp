@@ -1,0 +1,219 @@
+#include "trace/view.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+
+namespace whittle {
+namespace {
+
+bool hits(const Ray& ray, const Box& box) {
+  double t0 = ray.t_min, t1 = kInfinity;
+  for (int k = 0; k < 3; ++k) {
+    if (ray.direction[k] == 0) {
+      if (ray.origin[k] < box.lo[k] || ray.origin[k] > box.hi[k]) return false;
+      continue;
+    }
+    const double a = (box.lo[k] - ray.origin[k]) / ray.direction[k];
+    const double b = (box.hi[k] - ray.origin[k]) / ray.direction[k];
+    t0 = std::max(t0, std::min(a, b));
+    t1 = std::min(t1, std::max(a, b));
+  }
+  return t0 <= t1;
+}
+
+/// The pixels whose centre ray meets the box: how many, and the rectangle that holds them.
+struct Silhouette {
+  int count = 0, x0 = 1 << 20, x1 = -1, y0 = 1 << 20, y1 = -1;
+  int columns() const { return x1 - x0 + 1; }
+  int rows() const { return y1 - y0 + 1; }
+};
+
+Silhouette silhouette(const Camera& camera, const Box& box) {
+  Silhouette s;
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x < camera.width; ++x) {
+      if (!hits(camera.ray(x + 0.5, y + 0.5), box)) continue;
+      ++s.count;
+      s.x0 = std::min(s.x0, x), s.x1 = std::max(s.x1, x);
+      s.y0 = std::min(s.y0, y), s.y1 = std::max(s.y1, y);
+    }
+  }
+  return s;
+}
+
+ViewOptions sized(int width, int height) {
+  ViewOptions options;
+  options.width = width;
+  options.height = height;
+  return options;
+}
+
+Camera camera_of(const char* text, int width, int height, const Box& box = {},
+                 bool orthographic = false) {
+  ViewOptions options = *parse_camera(text, sized(width, height));
+  options.orthographic = orthographic;
+  return make_camera(options, {}, box);
+}
+
+void expect_near(Vec3 a, Vec3 b, double error = 1e-12) {
+  EXPECT_LE(length(a - b), error) << a.x << " " << a.y << " " << a.z << " against " << b.x << " "
+                                  << b.y << " " << b.z;
+}
+
+const Box kCube10{{-5, -5, -5}, {5, 5, 5}};
+
+TEST(View, PerspectiveCubeSpansWhatOpenscadDraws) {
+  const Silhouette s = silhouette(camera_of("0,0,0,0,0,0,50", 400, 400), kCube10);
+  EXPECT_EQ(s.columns(), 224);
+  EXPECT_EQ(s.rows(), 224);
+  EXPECT_EQ(s.count, 224 * 224);
+}
+
+TEST(View, OrthographicCubeSpansWhatOpenscadDraws) {
+  const Silhouette s = silhouette(camera_of("0,0,0,0,0,0,50", 400, 200, kCube10, true), kCube10);
+  EXPECT_EQ(s.columns(), 100);
+  EXPECT_EQ(s.rows(), 100);
+}
+
+const Box kBrick{{1, 2, 3}, {11, 8, 7}};
+
+TEST(View, StraightDownHasXToTheRightAndYUp) {
+  for (const char* text : {"0,0,0,0,0,0,60", "0,0,60,0,0,0"}) {
+    const Camera camera = camera_of(text, 400, 300);
+    expect_near(camera.eye, {0, 0, 60});
+    expect_near(camera.right, {1, 0, 0});
+    expect_near(camera.up, {0, 1, 0});
+    expect_near(camera.forward, {0, 0, -1});
+  }
+}
+
+TEST(View, StraightUpInVectorFormTurnsByHalf) {
+  const Camera camera = camera_of("0,0,-60,0,0,0", 400, 300);
+  expect_near(camera.right, {-1, 0, 0});
+  expect_near(camera.up, {0, 1, 0});
+  expect_near(camera.forward, {0, 0, 1});
+  const Camera gimbal = camera_of("0,0,0,180,0,180,60", 400, 300);
+  expect_near(gimbal.eye, camera.eye);
+  expect_near(gimbal.right, camera.right);
+  expect_near(gimbal.up, camera.up);
+}
+
+TEST(View, DefaultRotationLooksFromTheFrontRightAbove) {
+  const Camera camera = make_camera(sized(64, 64), {}, kCube10);
+  EXPECT_GT(camera.eye.x, 0);
+  EXPECT_LT(camera.eye.y, 0);
+  EXPECT_GT(camera.eye.z, 0);
+  EXPECT_GT(camera.up.z, 0);
+  EXPECT_EQ(camera.right.z, 0);
+}
+
+TEST(View, NothingGivenFitsAndCentres) {
+  const Camera camera = make_camera(sized(64, 64), {}, kBrick);
+  const double distance = kBrick.diagonal() / 2 / std::sin(11.25 * std::acos(-1.0) / 180);
+  expect_near(camera.eye + camera.forward * distance, kBrick.center(), 1e-9);
+}
+
+TEST(View, ViewAllWithoutAutoCenterKeepsTheTarget) {
+  ViewOptions options = *parse_camera("1,0,0,0,0,0,5", sized(64, 64));
+  options.view_all = true;
+  const double radius = length(kBrick.center() - Vec3{1, 0, 0}) + kBrick.diagonal() / 2;
+  expect_near(make_camera(options, {}, kBrick).eye,
+              {1, 0, radius / std::sin(11.25 * std::acos(-1.0) / 180)}, 1e-9);
+}
+
+TEST(View, AutoCenterAloneDoesNothing) {
+  ViewOptions options = *parse_camera("1,0,0,0,0,0,5", sized(64, 64));
+  options.auto_center = true;
+  expect_near(make_camera(options, {}, kBrick).eye, {1, 0, 5});
+}
+
+TEST(View, FileViewReplacesTheFitting) {
+  FileView file;
+  file.distance = 80;
+  const Camera camera = make_camera(sized(64, 64), file, kBrick);
+  EXPECT_NEAR(length(camera.eye), 80, 1e-9);
+  ViewOptions asked = sized(64, 64);
+  asked.view_all = asked.auto_center = true;
+  expect_near(make_camera(asked, file, kBrick).eye, camera.eye);
+}
+
+TEST(View, FileViewDoesNotCountBesideACamera) {
+  FileView file;
+  file.distance = 80;
+  file.target = Vec3{9, 9, 9};
+  file.fov_degrees = 60;
+  const Camera camera = make_camera(*parse_camera("0,0,0,0,0,0,50", sized(64, 64)), file, kBrick);
+  expect_near(camera.eye, {0, 0, 50});
+  EXPECT_NEAR(camera.half_height, std::tan(11.25 * std::acos(-1.0) / 180), 1e-15);
+}
+
+TEST(View, FieldOfViewOfTheFileYieldsToTheOption) {
+  FileView file;
+  file.fov_degrees = 90;
+  EXPECT_NEAR(make_camera(sized(8, 8), file, {}).half_height, 1, 1e-15);
+  ViewOptions options = sized(8, 8);
+  options.fov_degrees = 2 * std::atan(0.5) * 180 / std::acos(-1.0);
+  EXPECT_NEAR(make_camera(options, file, {}).half_height, 0.5, 1e-15);
+}
+
+TEST(View, EmptyBoxKeepsTheDefaultView) {
+  for (const Box& box : {Box{}, Box::everything(), Box{{0, 0, 0}, {0, 0, 0}}}) {
+    const Camera camera = make_camera(sized(64, 64), {}, box);
+    EXPECT_NEAR(length(camera.eye), kDefaultDistance, 1e-9);
+    EXPECT_TRUE(is_finite(camera.eye));
+  }
+}
+
+TEST(View, OrthographicRaysStartFarBehindTheEye) {
+  const Camera camera = camera_of("0,0,0,90,0,0,50", 64, 64, {}, true);
+  EXPECT_EQ(camera.ray(32, 32).t_min, -5000);
+  EXPECT_EQ(camera_of("0,0,0,90,0,0,50", 64, 64).ray(32, 32).t_min, 0);
+}
+
+TEST(View, CameraTextMustBeSixOrSevenNumbers) {
+  for (const char* text : {"", "1", "1,2,3", "1,2,3,4,5,6,7,8", "1,2,3,4,5,x", "1,2,3,4,5,",
+                           "1,2,3,4,5,6,inf", "1,2,3,4,5,nan", "0,0,0,0,0,0,-1", "1 2 3 4 5 6"}) {
+    const Result<ViewOptions> parsed = parse_camera(text);
+    ASSERT_FALSE(parsed) << text;
+    EXPECT_EQ(parsed.error().kind, ErrorKind::kUsage);
+    EXPECT_NE(parsed.error().message.find("Camera"), std::string::npos);
+  }
+  EXPECT_TRUE(parse_camera(" 1, +2 ,3e0,-4,5,.6,7"));
+}
+
+TEST(View, TheLaterCameraTextReplacesTheEarlier) {
+  const ViewOptions gimbal = *parse_camera("0,0,0,0,0,0,50");
+  const ViewOptions both = *parse_camera("1,2,3,4,5,6", gimbal);
+  EXPECT_FALSE(both.distance);
+  EXPECT_TRUE(both.eye);
+  EXPECT_FALSE(parse_camera("0,0,0,0,0,0,50", both)->eye);
+}
+
+RC_GTEST_PROP(View, AxesAreOrthonormalAndRightHanded, ()) {
+  const auto angle = [] { return *rc::gen::inRange(-7200, 7200) / 10.0; };
+  ViewOptions options = sized(10, 10);
+  options.rotation_degrees = Vec3{angle(), angle(), angle()};
+  const Camera c = make_camera(options, {}, {});
+  RC_ASSERT(std::fabs(dot(c.right, c.up)) < 1e-12);
+  RC_ASSERT(length(cross(c.right, c.up) + c.forward) < 1e-12);
+  RC_ASSERT(std::fabs(length(c.right) - 1) < 1e-12 && std::fabs(length(c.up) - 1) < 1e-12);
+}
+
+RC_GTEST_PROP(View, VectorFormEqualsItsGimbalForm, ()) {
+  const int rx = *rc::gen::inRange(1, 180), rz = *rc::gen::inRange(-180, 180);
+  ViewOptions gimbal = sized(10, 10);
+  gimbal.target = Vec3{1, -2, 3};
+  gimbal.rotation_degrees = Vec3{double(rx), 0, double(rz)};
+  gimbal.distance = 17;
+  const Camera a = make_camera(gimbal, {}, {});
+  ViewOptions vector = sized(10, 10);
+  vector.eye = a.eye;
+  vector.center = gimbal.target;
+  const Camera b = make_camera(vector, {}, {});
+  RC_ASSERT(length(a.right - b.right) < 1e-9 && length(a.up - b.up) < 1e-9);
+}
+
+}  // namespace
+}  // namespace whittle

@@ -1,0 +1,225 @@
+#include "support/agreement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "model/instances.h"
+
+namespace whittle {
+
+namespace {
+
+constexpr int kLooks = 5;  ///< the centre, then the four displaced ones
+
+/// What the oracle sees at one pixel, and from where.
+struct Looks {
+  std::array<Ray, kLooks> rays;
+  std::array<Hit, kLooks> hits;
+};
+
+Vec3 to_double(Vec3f v) { return {double(v.x), double(v.y), double(v.z)}; }
+
+Vec3 point_of(const Ray& ray, const Hit& hit) {
+  return ray.origin + ray.direction * double(hit.distance);
+}
+
+/// Sine of the angle between two normals; 1 if they point apart.
+double normal_difference(Vec3f a, Vec3f b) {
+  const Vec3 u = to_double(a), v = to_double(b);
+  return dot(u, v) > 0 ? length(cross(u, v)) : 1;
+}
+
+/// The distance at which `ray` meets the plane that touches the surface at the hit of another ray.
+double predicted_distance(const Ray& hit_ray, const Hit& hit, const Ray& ray) {
+  const Vec3 n = to_double(hit.normal);
+  return dot(n, point_of(hit_ray, hit) - ray.origin) / dot(n, ray.direction);
+}
+
+/// A pixel is certain if its answers lie on one smooth surface of one primitive.
+bool is_certain(const Looks& looks, Vec3 eye) {
+  const Hit& center = looks.hits[0];
+  for (int i = 1; i < kLooks; ++i) {
+    const Hit& hit = looks.hits[size_t(i)];
+    if (hit.id != center.id) return false;
+    if (!center.hit()) continue;
+    const double expected = predicted_distance(looks.rays[0], center, looks.rays[size_t(i)]);
+    const double scale = length(point_of(looks.rays[0], center) - eye);
+    if (!(std::fabs(double(hit.distance) - expected) <= kDistanceAgreement * scale)) return false;
+    if (normal_difference(hit.normal, center.normal) > kCertainNormals) return false;
+  }
+  return true;
+}
+
+/// Is `hit` the oracle's answer number `i`, allowing for what the agreement.h constants say?
+bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double model_tolerance) {
+  const Hit& answer = looks.hits[size_t(i)];
+  const Ray& ray = looks.rays[size_t(i)];
+  if (hit.id != answer.id) return false;
+  if (!hit.hit()) return !std::isfinite(hit.distance);
+
+  double normal_spread = 0;
+  for (const Hit& other : looks.hits)
+    if (other.id == answer.id)
+      normal_spread = std::max(normal_spread, normal_difference(other.normal, answer.normal));
+  if (!(normal_difference(hit.normal, answer.normal) <= kNormalAgreement + normal_spread))
+    return false;
+
+  double nearest = double(answer.distance), farthest = nearest;
+  const double steepness = dot(to_double(answer.normal), ray.direction);
+  for (const Ray& other : looks.rays) {
+    // Where the surface turns away within the five rays, its distance says nothing any more.
+    if (steepness * dot(to_double(answer.normal), other.direction) <= 0) return true;
+    const double expected = predicted_distance(ray, answer, other);
+    nearest = std::min(nearest, expected);
+    farthest = std::max(farthest, expected);
+  }
+  const double slack = kDistanceAgreement * length(point_of(ray, answer) - eye) +
+                       model_tolerance / std::fabs(steepness);
+  return double(hit.distance) >= nearest - slack && double(hit.distance) <= farthest + slack;
+}
+
+/// Calls `visit(pixel index, looks)` for every pixel, rows from the top.
+template <class Visit>
+void look_at_pixels(Tracer& oracle, const Camera& camera, const Frame& frame, const Visit& visit) {
+  static constexpr double kOffsets[kLooks][2] = {{0, 0},
+                                                 {-kDisplacement, -kDisplacement},
+                                                 {kDisplacement, -kDisplacement},
+                                                 {-kDisplacement, kDisplacement},
+                                                 {kDisplacement, kDisplacement}};
+  constexpr size_t kExtra = kLooks - 1;
+  std::vector<PixelPosition> positions;
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x)
+      for (int i = 1; i < kLooks; ++i)
+        positions.push_back({float(x + 0.5 + kOffsets[i][0]), float(y + 0.5 + kOffsets[i][1])});
+  std::vector<Hit> hits(positions.size());
+  oracle.probe(camera, positions, hits);
+  for (size_t pixel = 0; pixel < frame.hits.size(); ++pixel) {
+    Looks looks;
+    const int x = int(pixel) % camera.width, y = int(pixel) / camera.width;
+    looks.rays[0] = camera.ray(x + 0.5, y + 0.5);
+    looks.hits[0] = frame.hits[pixel];
+    for (size_t i = 0; i < kExtra; ++i) {
+      const PixelPosition& p = positions[pixel * kExtra + i];
+      looks.rays[i + 1] = camera.ray(double(p.x), double(p.y));
+      looks.hits[i + 1] = hits[pixel * kExtra + i];
+    }
+    visit(pixel, looks);
+  }
+}
+
+std::string describe(const Hit& hit) {
+  if (!hit.hit()) return "nothing";
+  return fmt::format("id {} at {:.9g}, normal ({:.6g}, {:.6g}, {:.6g})", hit.id, hit.distance,
+                     hit.normal.x, hit.normal.y, hit.normal.z);
+}
+
+std::string describe_difference(const Model& model, const Camera& camera, size_t pixel,
+                                const Looks& looks, bool certain, const char* subject,
+                                const Hit& hit) {
+  const Ray& ray = looks.rays[0];
+  std::string text = fmt::format(
+      "{}: pixel ({}, {}), {}: from ({:.17g}, {:.17g}, {:.17g}) along ({:.17g}, {:.17g}, {:.17g})\n"
+      "  {} sees {}\n  oracle sees {}\n",
+      model.file, int(pixel) % camera.width, int(pixel) / camera.width,
+      certain ? "certain" : "ambiguous", ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x,
+      ray.direction.y, ray.direction.z, subject, describe(hit), describe(looks.hits[0]));
+  if (!certain)
+    for (int i = 1; i < kLooks; ++i)
+      text += fmt::format("  or, close by, {}\n", describe(looks.hits[size_t(i)]));
+  return text;
+}
+
+Camera look_at(Vec3 target, Vec3 from_direction, double distance, int width, int height) {
+  Camera camera;
+  camera.forward = normalize(-from_direction);
+  camera.right = normalize(cross(camera.forward, {0, 0, 1}));
+  camera.up = cross(camera.right, camera.forward);
+  camera.eye = target - camera.forward * distance;
+  camera.width = width;
+  camera.height = height;
+  return camera;
+}
+
+}  // namespace
+
+AgreementReport check_agreement(const Model& model, Tracer& subject, Tracer& oracle,
+                                const Camera& camera) {
+  const double model_tolerance = tolerance(bounds(model));
+  const Frame expected = oracle.render(camera), seen = subject.render(camera);
+  AgreementReport report;
+  report.pixels = int(expected.hits.size());
+  if (seen.hits.size() != expected.hits.size()) {
+    report.unexplained = report.pixels;
+    report.first_difference = "the picture has another size";
+    return report;
+  }
+  look_at_pixels(oracle, camera, expected, [&](size_t pixel, const Looks& looks) {
+    const bool certain = is_certain(looks, camera.eye);
+    const Hit& hit = seen.hits[pixel];
+    report.hits += looks.hits[0].hit();
+    report.ambiguous += !certain;
+    bool matched = false;
+    for (int i = 0; i < (certain ? 1 : kLooks); ++i)
+      matched = matched || matches(hit, looks, i, camera.eye, model_tolerance);
+    if (matched) return;
+    ++(certain ? report.unexplained : report.ambiguous_unmatched);
+    // A certain pixel tells more than an ambiguous one seen before it.
+    if (report.first_difference.empty() || (certain && report.unexplained == 1))
+      report.first_difference =
+          describe_difference(model, camera, pixel, looks, certain, subject.name(), hit);
+  });
+  return report;
+}
+
+std::vector<uint8_t> ambiguous_pixels(Tracer& oracle, const Camera& camera, const Frame& frame) {
+  std::vector<uint8_t> ambiguous(frame.hits.size());
+  look_at_pixels(oracle, camera, frame, [&](size_t pixel, const Looks& looks) {
+    ambiguous[pixel] = !is_certain(looks, camera.eye);
+  });
+  return ambiguous;
+}
+
+std::vector<Camera> cameras_for(const Model& model, int width, int height) {
+  const Bounds b = bounds(model);
+  const Vec3 center = b.box.is_empty() ? Vec3{} : b.box.center();
+  const double radius = b.box.diagonal() > 0 ? 0.5 * b.box.diagonal() : 1;
+  // OpenSCAD's field of view, 22.5 degrees.
+  const double half_fov = std::atan(1.0) / 4;
+
+  Camera front = look_at(center, {0.57, -0.74, 0.43}, 1.02 * radius / std::sin(half_fov), width,
+                         height);
+  front.half_height = std::tan(half_fov);
+
+  Camera back = look_at(center, {-0.61, 0.53, -0.37}, 3 * radius, width, height);
+  back.orthographic = true;
+  back.half_height = 1.02 * radius;
+  back.ortho_reach = 100 * radius;
+
+  Camera inside = look_at(center + Vec3{0.083, -0.047, 0.061} * radius, {-0.33, -0.71, -0.21}, 0,
+                          width, height);
+  inside.half_height = 1;
+  return {front, back, inside};
+}
+
+Camera camera_along(Vec3 eye, Vec3 direction) {
+  const Vec3 d = normalize(direction);
+  const Vec3 helper = std::fabs(d.z) < 0.9 ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
+  Camera camera;
+  camera.eye = eye;
+  camera.forward = d;
+  camera.right = normalize(cross(d, helper));
+  camera.up = cross(camera.right, d);
+  camera.half_height = 1e-3;
+  camera.width = camera.height = 1;
+  return camera;
+}
+
+Hit trace_one(Tracer& tracer, Vec3 eye, Vec3 direction) {
+  return tracer.render(camera_along(eye, direction)).at(0, 0);
+}
+
+}  // namespace whittle
