@@ -10,6 +10,9 @@ endif()
 # No contraction: a fused multiply-add here and none there would make two backends differ.
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                     -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  add_compile_options(-Wno-restrict)  # false alarms in std::string, GCC bug 105651
+endif()
 # errno and floating-point traps are not used; without this every sqrt is a guarded call.
 add_compile_options(-fno-math-errno -fno-trapping-math)
 

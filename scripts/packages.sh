@@ -1,3 +1,4 @@
+# shellcheck shell=bash disable=SC2034
 # Every Debian package whittle needs, and why: the only such list. To be sourced.
 # What is found by CMake is found in cmake/Dependencies.cmake.
 

@@ -1,6 +1,8 @@
+# shellcheck shell=bash
 # What run, test and the scripts share. To be sourced, with `root` set to the repository's folder.
 # All messages go to standard error: standard output belongs to the program that is run.
 
+# shellcheck source=scripts/packages.sh disable=SC2154
 source "$root/scripts/packages.sh"
 
 say() { printf 'whittle: %s\n' "$*" >&2; }
@@ -61,12 +63,15 @@ configure() {
     fresh=(--fresh)
   fi
   say "configuring build/release"
-  (cd "$root" && cmake --preset release "${fresh[@]}" "$@") >&2 </dev/null
+  (cd "$root" && cmake --preset release --log-level=WARNING "${fresh[@]}" "$@") >&2 </dev/null
 }
 
 # build_targets TARGET...: builds them, all if none is named; silent if there is nothing to do.
 build_targets() {
   if ninja -C "$build" -n "$@" 2>/dev/null | grep -q 'no work to do'; then return; fi
   say "building${*:+ }$* (the first time takes some minutes)"
-  ninja -C "$build" "$@" >&2 </dev/null
+  # On a terminal ninja keeps to one line; elsewhere it would write one for every file.
+  local quiet=()
+  if [[ ! -t 2 ]]; then quiet=(--quiet); fi
+  ninja -C "$build" "${quiet[@]}" "$@" >&2 </dev/null
 }

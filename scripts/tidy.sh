@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks sources by clang-tidy (.clang-tidy says which checks). Arguments: the .cpp files to check; all without any.
+# Checks sources by clang-tidy; .clang-tidy says for what. Arguments: .cpp files; all without any.
 # Needs a configured build/release, which ./test leaves behind.
 set -euo pipefail
 root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)

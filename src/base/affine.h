@@ -35,9 +35,13 @@ inline Affine operator*(const Affine& a, const Affine& b) {
   return r;
 }
 
-inline Affine translation(Vec3 t) { return {.translation = t}; }
+inline Affine translation(Vec3 t) {
+  return {.translation = t};
+}
 
-inline Affine scaling(Vec3 s) { return {.row = {{s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}}, .translation = {}}; }
+inline Affine scaling(Vec3 s) {
+  return {.row = {{s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}}, .translation = {}};
+}
 
 /// The inverse map. Precondition: the determinant is not zero (see is_singular).
 inline Affine inverse(const Affine& a) {

@@ -37,7 +37,9 @@ struct Box {
 };
 
 /// The smallest box that holds both.
-inline Box unite(const Box& a, const Box& b) { return {min(a.lo, b.lo), max(a.hi, b.hi)}; }
+inline Box unite(const Box& a, const Box& b) {
+  return {min(a.lo, b.lo), max(a.hi, b.hi)};
+}
 
 /// What both boxes hold; empty if they are apart.
 inline Box intersect(const Box& a, const Box& b) {
@@ -45,7 +47,9 @@ inline Box intersect(const Box& a, const Box& b) {
   return r.is_empty() ? Box{} : r;
 }
 
-inline bool overlaps(const Box& a, const Box& b) { return !intersect(a, b).is_empty(); }
+inline bool overlaps(const Box& a, const Box& b) {
+  return !intersect(a, b).is_empty();
+}
 
 /// The box of the image of `b`, exact for its corners. Empty and infinite boxes stay as they are.
 inline Box transform(const Affine& to_from_box, const Box& b) {

@@ -194,9 +194,9 @@ Result<std::string> write_pov(const Model& model, const Camera& camera,
   fmt::format_to(
       out,
       "// Made by whittle. To get the values that whittle --style blinn computes:\n"
-      "// povray +I<this file> +O<picture>.png +W{} +H{} +FN8 -A -D File_Gamma=1\n"
+      "// povray +I<this file> +O<picture>.png +W{} +H{} +FN8 -A -D\n"
       "#version 3.7;\n"
-      "global_settings {{ assumed_gamma 1 ambient_light rgb 1 }}\n"
+      "global_settings {{ assumed_gamma srgb ambient_light rgb 1 }}\n"
       "#default {{ finish {{ ambient {:.7g} diffuse {:.7g} specular {:.7g} roughness 1/{} }} }}\n"
       "background {{ {} }}\n",
       camera.width, camera.height, kBlinnAmbient, kBlinnDiffuse, kBlinnSpecular, kBlinnExponent,

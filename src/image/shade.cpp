@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/result.h"
 #include "image/srgb.h"
@@ -37,10 +38,10 @@ constexpr ColorScheme kBlinnScheme{
 
 // The studio. Colours are linear; lights are directions in eye space (right, up, towards the
 // viewer).
-constexpr Vec3f kKeyDirection{-0.5f, 0.6f, 0.85f}, kKeyColor{0.70f, 0.685f, 0.66f};
+constexpr Vec3f kKeyDirection{-0.5f, 0.6f, 0.85f}, kKeyColor{0.82f, 0.80f, 0.77f};
 constexpr Vec3f kFillDirection{0.85f, 0.05f, 0.55f}, kFillColor{0.11f, 0.12f, 0.14f};
 constexpr Vec3f kRimDirection{0.35f, 0.45f, -0.85f}, kRimColor{0.20f, 0.21f, 0.23f};
-constexpr Vec3f kSkyColor{0.33f, 0.345f, 0.37f}, kGroundColor{0.12f, 0.115f, 0.11f};
+constexpr Vec3f kSkyColor{0.29f, 0.305f, 0.33f}, kGroundColor{0.11f, 0.105f, 0.10f};
 /// The key light is as large as this share of a half-sphere: it reaches a little round the corner.
 constexpr float kKeyWrap = 0.15f;
 /// Reflection of a dielectric such as plastic, seen straight and at grazing angles.
@@ -169,17 +170,23 @@ Picture shade(const Frame& frame, const Camera& camera, std::span<const Appearan
   WHITTLE_CHECK(frame.width == camera.width && frame.height == camera.height);
   const Shader shader(camera, appearances, settings);
   Picture picture(frame.width, frame.height);
+  const auto shade_row = [&](int y) {
+    const float py = float(y) + 0.5f;
+    uint8_t behind[4] = {};
+    if (shader.has_background()) shader.store(shader.background(py), 1, behind);
+    for (int x = 0; x < frame.width; ++x) {
+      const Hit& hit = frame.at(x, y);
+      if (hit.hit()) {
+        shader.store(shader.color(hit, float(x) + 0.5f, py), 1, picture.at(x, y));
+      } else {
+        std::memcpy(picture.at(x, y), behind, sizeof behind);
+      }
+    }
+  };
   constexpr int kRowsPerTask = 16;
   tbb::parallel_for(tbb::blocked_range<int>(0, frame.height, kRowsPerTask),
                     [&](const tbb::blocked_range<int>& rows) {
-                      for (int y = rows.begin(); y < rows.end(); ++y) {
-                        for (int x = 0; x < frame.width; ++x) {
-                          const Hit& hit = frame.at(x, y);
-                          if (!hit.hit() && !shader.has_background()) continue;
-                          shader.store(shader.color(hit, float(x) + 0.5f, float(y) + 0.5f), 1,
-                                       picture.at(x, y));
-                        }
-                      }
+                      for (int y = rows.begin(); y < rows.end(); ++y) shade_row(y);
                     });
   return picture;
 }

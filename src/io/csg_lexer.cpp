@@ -29,8 +29,8 @@ double beyond_range(std::string_view digits) {
   const size_t point = std::min(mantissa.find('.'), mantissa.size());
   const size_t first = mantissa.find_first_of("123456789");
   if (first == std::string_view::npos) return 0;
-  exponent += first < point ? static_cast<double>(point - first)
-                            : -static_cast<double>(first - point);
+  exponent +=
+      first < point ? static_cast<double>(point - first) : -static_cast<double>(first - point);
   return exponent > 0 ? std::numeric_limits<double>::infinity() : 0;
 }
 

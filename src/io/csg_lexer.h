@@ -103,7 +103,11 @@ class CsgLexer {
 inline bool is_name_start(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '$';
 }
-inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
-inline bool is_name_part(char c) { return is_name_start(c) || is_digit(c); }
+inline bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+inline bool is_name_part(char c) {
+  return is_name_start(c) || is_digit(c);
+}
 
 }  // namespace whittle

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,11 +20,11 @@
 #include "io/csg_lexer.h"
 #include "io/csg_statements.h"
 #include "io/csg_values.h"
+#include "io/flat_shapes.h"
 #include "io/read.h"
 #include "io/tree_edit.h"
 #include "io/warnings.h"
 #include "model/instances.h"
-#include "model/polyhedron.h"
 
 namespace whittle {
 namespace {
@@ -37,13 +38,13 @@ struct Modifiers {
 
 /// A statement whose children are being read.
 struct OpenStatement {
-  uint32_t node = kNone;  ///< kNone: it has none, because `*` drops it
-  uint32_t operands = 0;  ///< children that are not background
-  uint32_t scope = 0;     ///< index of the $fn, $fa, $fs for its children
+  uint32_t node = kNone;   ///< kNone: it has none, because `*` drops it
+  uint32_t operands = 0;   ///< children that are not background
+  uint32_t scope = 0;      ///< index of the $fn, $fa, $fs for its children
   SourceLocation where{};  ///< of its `{`
-  bool single = false;    ///< one statement without braces is its only child
+  bool single = false;     ///< one statement without braces is its only child
   bool drops_children = false;
-  bool is_root = false;   ///< marked with `!`
+  bool is_root = false;  ///< marked with `!`
 };
 
 /// A primitive that inherits $fn, $fa or $fs from the top level, where assignments count for the
@@ -88,8 +89,6 @@ class CsgReader {
   void choose_facets_of(uint32_t primitive, const GivenFragments& given);
 
   bool finish();
-  bool check_facets();
-  bool build_polyhedra();
 
   bool expected(std::string_view what) {
     lexer_.peek();
@@ -180,8 +179,8 @@ bool CsgReader::read_statement() {
   open.drops_children = parent.drops_children || modifiers.disabled;
   if (!open.drops_children) {
     const Statement statement = bind_arguments(type, where, arguments_, warnings_);
-    if (type.passes_fragments && (statement.fragments.fn || statement.fragments.fa ||
-                                  statement.fragments.fs)) {
+    if (type.passes_fragments &&
+        (statement.fragments.fn || statement.fragments.fa || statement.fragments.fs)) {
       if (!is_leaf(type.meaning)) {
         open.scope = static_cast<uint32_t>(scopes_.size());
         // Not the top level's, which may still change.
@@ -255,8 +254,7 @@ void CsgReader::close(const OpenStatement& closed) {
   }
   if (node.background || node.highlight || closed.is_root) return;
   const NodeKind parent_kind = nodes[parent.node].kind;
-  if (childless && parent_kind != NodeKind::kDifference &&
-      parent_kind != NodeKind::kIntersection) {
+  if (childless && parent_kind != NodeKind::kDifference && parent_kind != NodeKind::kIntersection) {
     // An empty operand of a union; elsewhere it counts.
     --parent.operands;
     nodes.pop_back();
@@ -269,8 +267,9 @@ void CsgReader::close(const OpenStatement& closed) {
 bool CsgReader::add_node(const Statement& statement, Modifiers modifiers, std::string_view name,
                          uint32_t scope) {
   if (model_.nodes.size() >= std::min<size_t>(options_.max_nodes, kNone - 1)) {
-    return lexer_.fail(statement.where, fmt::format("there are more statements than the limit of {}",
-                                                    options_.max_nodes));
+    return lexer_.fail(
+        statement.where,
+        fmt::format("there are more statements than the limit of {}", options_.max_nodes));
   }
   if (modifiers.root) {
     if (root_ == kNone) {
@@ -321,10 +320,10 @@ bool CsgReader::set_meaning(const Statement& statement, std::string_view name, u
     }
     case Meaning::kUnsupportedGroup:
     case Meaning::kUnsupportedLeaf: {
-      const std::string message = fmt::format(
-          "{} is not supported yet, {}", quote(name),
-          is_leaf(statement.type->meaning) ? "nothing is shown for it"
-                                           : "shown as the union of its children");
+      const std::string message =
+          fmt::format("{} is not supported yet, {}", quote(name),
+                      is_leaf(statement.type->meaning) ? "nothing is shown for it"
+                                                       : "shown as the union of its children");
       warnings_.add(message, statement.where, message);
       unsupported_ = true;
       return true;
@@ -379,8 +378,8 @@ void CsgReader::choose_facets_of(uint32_t primitive, const GivenFragments& given
   if (auto* const sphere = std::get_if<Sphere>(&shape)) {
     sphere->facets = choose_facets(sphere->r, given.settings(), options_.curves);
   } else if (auto* const cylinder = std::get_if<Cylinder>(&shape)) {
-    cylinder->facets = choose_facets(std::fmax(cylinder->r1, cylinder->r2), given.settings(),
-                                     options_.curves);
+    cylinder->facets =
+        choose_facets(std::fmax(cylinder->r1, cylinder->r2), given.settings(), options_.curves);
   }
 }
 
@@ -391,8 +390,9 @@ bool CsgReader::read_assignment(std::string_view name, SourceLocation where) {
   if (lexer_.peek() != ';') return expected("';'");
   lexer_.advance();
   if (stack_.size() > 1) {
-    constexpr std::string_view kMessage = "an assignment inside of a statement is not supported "
-                                          "yet, it is ignored";
+    constexpr std::string_view kMessage =
+        "an assignment inside of a statement is not supported "
+        "yet, it is ignored";
     if (stack_.back().single) return lexer_.fail(where, "expected a statement, not an assignment");
     if (!stack_.back().drops_children) {
       warnings_.add(kMessage, where, kMessage);
@@ -402,8 +402,9 @@ bool CsgReader::read_assignment(std::string_view name, SourceLocation where) {
   }
   const Value& value = arguments_.values.front();
   if (!constants_.assign(name, value)) {
-    constexpr std::string_view kMessage = "a name is assigned after it was used, where OpenSCAD "
-                                          "would use this value too";
+    constexpr std::string_view kMessage =
+        "a name is assigned after it was used, where OpenSCAD "
+        "would use this value too";
     warnings_.add(kMessage, where, kMessage);
     unsupported_ = true;
   }
@@ -439,44 +440,11 @@ bool CsgReader::finish() {
   }
   if (root_ != kNone) keep_subtree(model_, root_);
   remove_marked(model_);
-  if (!check_facets() || !build_polyhedra()) return false;
+  std::optional<Mistake> mistake = check_facets(model_, options_.max_facets);
+  if (!mistake) mistake = build_polyhedra(model_);
+  if (mistake) return lexer_.fail(mistake->where, std::move(mistake->message));
   for (std::string& warning : transform_warnings(model_)) {
     warnings_.add_full("a transform leaves nothing of what it moves", std::move(warning));
-  }
-  return true;
-}
-
-bool CsgReader::check_facets() {
-  uint64_t total = 0;
-  for (const Node& node : model_.nodes) {
-    if (node.kind != NodeKind::kPrimitive) continue;
-    const Shape& shape = model_.primitives[node.payload].shape;
-    if (const auto* const sphere = std::get_if<Sphere>(&shape)) {
-      const auto n = static_cast<uint64_t>(sphere->facets);
-      if (n > 0) total += n * ((n + 1) / 2 - 1) + 2;
-    } else if (const auto* const cylinder = std::get_if<Cylinder>(&shape)) {
-      if (cylinder->facets > 0) total += static_cast<uint64_t>(cylinder->facets) + 2;
-    } else if (const auto* const polyhedron = std::get_if<Polyhedron>(&shape)) {
-      total += polyhedron->faces.size();
-    }
-    if (total > options_.max_facets) {
-      return lexer_.fail(node.where, fmt::format("with this shape the model has {} facets, more than "
-                                                 "the limit of {}; a smaller $fn gives fewer, "
-                                                 "--curves smooth none",
-                                                 total, options_.max_facets));
-    }
-  }
-  return true;
-}
-
-bool CsgReader::build_polyhedra() {
-  for (const Node& node : model_.nodes) {
-    if (node.kind != NodeKind::kPrimitive) continue;
-    auto* const polyhedron = std::get_if<Polyhedron>(&model_.primitives[node.payload].shape);
-    if (!polyhedron) continue;
-    if (const std::optional<std::string> reason = build_planes(*polyhedron)) {
-      return lexer_.fail(node.where, "this polyhedron cannot be used: " + *reason);
-    }
   }
   return true;
 }

@@ -65,8 +65,12 @@ void warn(const Statement& statement, std::string_view problem, Warnings& warnin
   warnings.add(message, statement.where, message);
 }
 
-bool is_number(const Value* value) { return value && value->kind == Value::Kind::kNumber; }
-bool is_vector(const Value* value) { return value && value->kind == Value::Kind::kVector; }
+bool is_number(const Value* value) {
+  return value && value->kind == Value::Kind::kNumber;
+}
+bool is_vector(const Value* value) {
+  return value && value->kind == Value::Kind::kVector;
+}
 
 /// Up to `capacity` numbers of a vector; how many there are, or -1 if it holds anything else.
 int numbers(const Value* value, double* out, int capacity) {
@@ -90,8 +94,8 @@ void read_center(const Value* value, bool& center) {
 }
 
 /// The radius by radius or diameter; the diameter wins.
-std::optional<double> radius(const Statement& statement, size_t radius_index,
-                             size_t diameter_index, Warnings& warnings) {
+std::optional<double> radius(const Statement& statement, size_t radius_index, size_t diameter_index,
+                             Warnings& warnings) {
   const Value* const r = argument(statement, radius_index);
   const Value* const d = argument(statement, diameter_index);
   if (is_number(d)) {
@@ -123,7 +127,8 @@ Affine multmatrix(const Statement& statement, Warnings& warnings) {
       for (double& e : row) e /= m[3][3];
     }
   }
-  return {.row = {{m[0][0], m[0][1], m[0][2]}, {m[1][0], m[1][1], m[1][2]},
+  return {.row = {{m[0][0], m[0][1], m[0][2]},
+                  {m[1][0], m[1][1], m[1][2]},
                   {m[2][0], m[2][1], m[2][2]}},
           .translation = {m[0][3], m[1][3], m[2][3]}};
 }
@@ -233,8 +238,9 @@ Statement bind_arguments(const StatementType& type, SourceLocation where,
       while (index < type.parameters.size() && type.parameters[index] != argument.name) ++index;
       if (index == type.parameters.size()) {
         warnings.add(fmt::format("{}: an argument is not known; it is ignored", type.name),
-                     argument.where, fmt::format("{}: the argument {} is not known; it is ignored",
-                                                 type.name, quote(argument.name)));
+                     argument.where,
+                     fmt::format("{}: the argument {} is not known; it is ignored", type.name,
+                                 quote(argument.name)));
         continue;
       }
     }
@@ -302,8 +308,8 @@ Polyhedron make_polyhedron(const Statement& statement, std::string& mistake) {
     for (const Value* p = points->begin(); p != points->end(); p += p->extent) {
       const std::optional<Vec3> point = vec3_or_vec2(p, 0);
       if (!point) {
-        mistake = fmt::format("points[{}] is not a vector of three numbers",
-                              polyhedron.points.size());
+        mistake =
+            fmt::format("points[{}] is not a vector of three numbers", polyhedron.points.size());
         return {};
       }
       polyhedron.points.push_back(*point);
@@ -376,8 +382,9 @@ Rgba make_color(const Statement& statement, Warnings& warnings) {
       color = *named;
     } else {
       const std::string kind = "color: the name is not known; nothing is coloured";
-      warnings.add(kind, statement.where,
-                   fmt::format("color: the name {} is not known; nothing is coloured", quote(c->text)));
+      warnings.add(
+          kind, statement.where,
+          fmt::format("color: the name {} is not known; nothing is coloured", quote(c->text)));
     }
   }
   if (const Value* const alpha = argument(statement, 1); is_number(alpha)) {

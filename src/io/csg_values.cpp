@@ -24,7 +24,9 @@ constexpr Value kUndefined{};
 constexpr Value kTrue{.number = 1, .text = {}, .kind = Value::Kind::kBool};
 constexpr Value kFalse{.number = 0, .text = {}, .kind = Value::Kind::kBool};
 
-Value number_value(double x) { return {.number = x, .text = {}, .kind = Value::Kind::kNumber}; }
+Value number_value(double x) {
+  return {.number = x, .text = {}, .kind = Value::Kind::kNumber};
+}
 
 std::optional<Value> built_in(std::string_view name) {
   if (name == "inf") return number_value(std::numeric_limits<double>::infinity());
@@ -47,8 +49,8 @@ bool append_named(CsgLexer& lexer, std::string_view name, SourceLocation where,
                   Constants& constants, Warnings& warnings, std::vector<Value>& values) {
   const Value* const value = constants.look_up(name, where, warnings);
   if (value->extent > 1 && values.size() > kMostValuesByName) {
-    return lexer.fail(where, fmt::format("the statement has more than {} values by name",
-                                         kMostValuesByName));
+    return lexer.fail(
+        where, fmt::format("the statement has more than {} values by name", kMostValuesByName));
   }
   values.insert(values.end(), value, value->end());
   return true;

@@ -46,8 +46,8 @@ class Constants {
   /// Names of numbers that are not finite, as dumps have them (inf, nan), are numbers.
   const Value* look_up(std::string_view name, SourceLocation where, Warnings& warnings);
 
-  /// `name` stands for `value` from here on. False if OpenSCAD would use it elsewhere too (there the
-  /// last assignment of a name rules wherever the name is used) and that use has passed.
+  /// `name` stands for `value` from here on. False if OpenSCAD would use it elsewhere too (there
+  /// the last assignment of a name rules wherever the name is used) and that use has passed.
   bool assign(std::string_view name, const Value& value);
 
  private:

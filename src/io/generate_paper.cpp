@@ -1,6 +1,7 @@
 // The models of the paper's Figures 12 and 13. Their texts were never published; these follow the
 // captions and pictures, with sizes chosen so that about half of the body is cut away at any N.
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "io/generate_models.h"
@@ -99,7 +100,7 @@ void generate_tube(CsgText& out, int holes, Chance) {
   // The paper has 30 rods x 10 holes, 30 x 20 (which it calls TUBE500), 50 x 20. Other sizes keep
   // about the first one's shape; where the holes do not share out evenly some rods have one more.
   constexpr double kTubeRadius = 40, kTubeHeight = 100;
-  int rods = std::max(1, int(std::sqrt(3.0 * holes) + 0.5));
+  int rods = int(std::max(1L, std::lround(std::sqrt(3.0 * holes))));
   if (holes == 500 || holes == 600) rods = 30, holes = 600;
   if (holes == 1000) rods = 50;
   const int most_holes_a_rod = (holes + rods - 1) / rods;

@@ -1,7 +1,9 @@
 #include "io/generate.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
 
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -109,6 +111,19 @@ TEST(Generate, RandomTreesHoldEveryOperationAndEveryPrimitive) {
   EXPECT_EQ(has_facets.size(), 2u);
 }
 
+TEST(Generate, RandomTreesAreAsLargeAsAskedAndReadWithoutComplaint) {
+  rc::check([] {
+    const int n = *rc::gen::inRange(1, 80);
+    const auto seed = *rc::gen::arbitrary<uint64_t>();
+    const Result<std::string> text = generate_model("random", n, seed);
+    RC_ASSERT(bool(text));
+    const Result<Read> read = read_csg(*text, "random");
+    RC_ASSERT(bool(read));
+    RC_ASSERT(read->warnings.empty());
+    RC_ASSERT(read->model.primitives.size() == size_t(n));
+  });
+}
+
 TEST(Generate, SeedsDecide) {
   for (const char* name : {"cheese", "cyl", "cone", "random"}) {
     EXPECT_EQ(text_of(name, 20, 5), text_of(name, 20, 5)) << name;
@@ -160,9 +175,13 @@ struct Example {
   std::optional<int> n;
 };
 
-class Examples : public testing::TestWithParam<Example> {};
+void PrintTo(const Example& example, std::ostream* out) {
+  *out << example.file;
+}
 
-TEST_P(Examples, AreWhatTheGeneratorsWrite) {
+class MadeExamples : public testing::TestWithParam<Example> {};
+
+TEST_P(MadeExamples, AreWhatTheGeneratorsWrite) {
   const Example& example = GetParam();
   std::ifstream file(std::string(WHITTLE_EXAMPLES) + "/" + example.file, std::ios::binary);
   ASSERT_TRUE(file) << example.file;
@@ -173,7 +192,7 @@ TEST_P(Examples, AreWhatTheGeneratorsWrite) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Committed, Examples,
+    Committed, MadeExamples,
     testing::Values(Example{"cheese100.csg", "cheese", 100},
                     Example{"cheese1000.csg", "cheese", 1000}, Example{"cyl100.csg", "cyl", 100},
                     Example{"cone100.csg", "cone", 100}, Example{"tube300.csg", "tube", 300},
@@ -183,6 +202,20 @@ INSTANTIATE_TEST_SUITE_P(
       const std::string file = example.param.file;
       return file.substr(0, file.find('.'));
     });
+
+TEST(Examples, AllReadWithoutComplaint) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(WHITTLE_EXAMPLES)) {
+    if (entry.path().extension() != ".csg") continue;
+    ++files;
+    const Result<Read> read = read_file(entry.path().string());
+    ASSERT_TRUE(read) << read.error().message;
+    for (const std::string& warning : read->warnings) ADD_FAILURE() << warning;
+    EXPECT_FALSE(read->unsupported) << entry.path();
+    EXPECT_GT(read->model.primitives.size(), 0u) << entry.path();
+  }
+  EXPECT_GE(files, 16);
+}
 
 }  // namespace
 }  // namespace whittle

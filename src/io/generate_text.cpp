@@ -8,7 +8,7 @@ namespace whittle {
 void CsgText::indent() {
   // Deep trees would otherwise be mostly white space.
   constexpr int kDeepest = 40;
-  text_.append(size_t(2 * std::min(depth_, kDeepest)), ' ');
+  text_.append(size_t{2} * size_t(std::min(depth_, kDeepest)), ' ');
 }
 
 void CsgText::comment(std::string_view text) {

@@ -19,9 +19,9 @@ namespace whittle {
 /// How to read, and what is too much. A limit that is passed is an error that names it.
 struct ReadOptions {
   Curves curves = Curves::kAuto;
-  uint32_t max_depth = 1'000'000;   ///< statements inside statements
-  size_t max_nodes = 200'000'000;   ///< nodes of the tree, before it is simplified
-  size_t max_facets = 50'000'000;   ///< flat faces of all spheres, cylinders and polyhedra together
+  uint32_t max_depth = 1'000'000;  ///< statements inside statements
+  size_t max_nodes = 200'000'000;  ///< nodes of the tree, before it is simplified
+  size_t max_facets = 50'000'000;  ///< flat faces of all spheres, cylinders and polyhedra together
 };
 
 /// What was read.
@@ -30,7 +30,8 @@ struct Read {
   /// Full messages, `file:line:column: warning: ...`, in the order of the file; what transforms
   /// make empty (transform_warnings) is among them. Many of one kind are summed up in one line.
   std::vector<std::string> warnings;
-  bool unsupported = false;  ///< something was not understood, so the model may not be what was meant
+  bool unsupported =
+      false;  ///< something was not understood, so the model may not be what was meant
 };
 
 /// Reads .csg text. `file_name` is what messages call it. The result does not refer to `text`.

@@ -35,8 +35,8 @@ void Warnings::add_full(std::string_view kind, std::string message) {
 std::vector<std::string> Warnings::take() {
   for (const auto& [kind, number] : counts_) {
     if (number > kShown) {
-      messages_.push_back(fmt::format("{}: warning: {} more times: {}", file_, number - kShown,
-                                      kind));
+      messages_.push_back(
+          fmt::format("{}: warning: {} more times: {}", file_, number - kShown, kind));
     }
   }
   counts_.clear();

@@ -26,7 +26,9 @@ struct Numbers {
   K::Quadric quadric() { return {vec(), vec(), vec(), any()}; }
 };
 
-double sign_at(double a, double h, double k, double t) { return (a * t + 2 * h) * t + k; }
+double sign_at(double a, double h, double k, double t) {
+  return (a * t + 2 * h) * t + k;
+}
 
 TEST(QuadraticRoots, TellTheSignEverywhere) {
   Numbers numbers(1);
@@ -45,8 +47,8 @@ TEST(QuadraticRoots, TellTheSignEverywhere) {
       const double value = sign_at(a, h, k, t);
       // Rounding blurs the sign next to a root; elsewhere it is certain.
       const double blur = 1e-13 * (std::fabs(a * t * t) + std::fabs(2 * h * t) + std::fabs(k));
-      const bool certain = std::fabs(value) > blur &&
-                           std::fabs(h * h - a * k) > 1e-12 * (h * h + std::fabs(a * k));
+      const bool certain =
+          std::fabs(value) > blur && std::fabs(h * h - a * k) > 1e-12 * (h * h + std::fabs(a * k));
       ASSERT_TRUE(!certain || inside == (value < 0)) << a << ' ' << h << ' ' << k << " at " << t;
     }
   }
@@ -82,9 +84,11 @@ TEST(Quadric, RangeHoldsEveryValueInTheBox) {
     const Vec3 m = numbers.vec(), h = abs(numbers.vec());
     const K::Vec2 range = K::quadric_range(f, m, h, 1e-14);
     for (int j = 0; j < 4; ++j) {
-      // Weights in [-1, 1], corners preferred: the sample cannot leave the box by more than rounding.
-      const auto weight = [&] { return numbers.engine() % 2 ? numbers.uniform(-1, 1)
-                                                            : numbers.engine() % 2 ? 1.0 : -1.0; };
+      // Weights in [-1, 1], corners preferred: the sample cannot leave the box by more than
+      // rounding.
+      const auto weight = [&] {
+        return numbers.engine() % 2 ? numbers.uniform(-1, 1) : numbers.engine() % 2 ? 1.0 : -1.0;
+      };
       const Vec3 p{m.x + h.x * weight(), m.y + h.y * weight(), m.z + h.z * weight()};
       const double value = K::quadric_value(f, p);
       ASSERT_LE(range.x, value);

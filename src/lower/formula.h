@@ -2,8 +2,8 @@
 //
 // Negation is pushed down to the literals (difference = and-not), so groups are conjunctions and
 // disjunctions only, n-ary, operands in file order. A group's header holds its length, so a reader
-// skips what is decided without looking at it. Order matters: ownership of coincident faces follows it
-// (docs/conventions.md, tie rules), and simplification keeps it.
+// skips what is decided without looking at it. Order matters: ownership of coincident faces follows
+// it (docs/conventions.md, tie rules), and simplification keeps it.
 #pragma once
 
 #include <cstdint>

@@ -10,8 +10,8 @@ using K = Kernels<double>;
 constexpr uint32_t kNone = UINT32_MAX;
 
 /// Width of a bucket in fingerprint units, and how near to its border a fingerprint must be for the
-/// neighbour to be searched too. The slack is far above the tolerance (2e-6) for all but tiny curved
-/// surfaces, and wide buckets keep the number of neighbours low.
+/// neighbour to be searched too. The slack is far above the tolerance (2e-6) for all but tiny
+/// curved surfaces, and wide buckets keep the number of neighbours low.
 constexpr double kBucketWidth = 1.0 / 64;
 constexpr double kBucketSlack = kBucketWidth / 16;
 

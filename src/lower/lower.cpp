@@ -143,7 +143,8 @@ Result<Scene> lower(const Model& model) {
     for (const auto& [half_space, extent] : lowered.surfaces)
       scene.faces.push_back({table.add(half_space, extent), number});
     unit.face_count = uint32_t(scene.faces.size()) - unit.first_face;
-    if (unit.face_count > 1) unit.outer = transform(local_from_world, instance_box(model, instance));
+    if (unit.face_count > 1)
+      unit.outer = transform(local_from_world, instance_box(model, instance));
     if (unit.face_count >= kFacesForInnerBall) {
       unit.inner_center = lowered.inner_center;
       unit.inner_radius = lowered.inner_radius;

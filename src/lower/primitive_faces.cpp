@@ -41,9 +41,9 @@ struct Builder {
   void plane(const Plane& p, Vec3 near_point, double extent) {
     // A point of the plane next to the primitive's middle keeps later numbers small.
     const Vec3 foot = near_point + p.n * (p.d - dot(p.n, near_point));
-    out.surfaces.push_back({plane_half_space(object_from_local.transposed_vector(p.n),
-                                             local_from_object.point(foot)),
-                            extent});
+    out.surfaces.push_back(
+        {plane_half_space(object_from_local.transposed_vector(p.n), local_from_object.point(foot)),
+         extent});
   }
 
   void flat(const Shape& shape) {
@@ -52,7 +52,8 @@ struct Builder {
     Vec3 middle;
     for (const Vec3& v : vertices) middle += v / double(vertices.size());
     double extent = 0;
-    for (const Vec3& v : vertices) extent = std::max(extent, length(local_from_object.vector(v - middle)));
+    for (const Vec3& v : vertices)
+      extent = std::max(extent, length(local_from_object.vector(v - middle)));
     out.surfaces.reserve(planes.size());
     for (const Plane& p : planes) plane(p, middle, 2 * extent);
     if (vertices.empty()) return;
@@ -69,8 +70,9 @@ struct Builder {
     K::Quadric f{{}, {}, {}, -s.r * s.r};
     for (const Vec3& row : object_from_local.row) add_square(f, row, 1);
     const double steepest = max_component(f.diag);
-    const double extent = s.r * (length(local_from_object.row[0]) + length(local_from_object.row[1]) +
-                                 length(local_from_object.row[2]));
+    const double extent =
+        s.r * (length(local_from_object.row[0]) + length(local_from_object.row[1]) +
+               length(local_from_object.row[2]));
     out.surfaces.push_back(
         {quadric_half_space(f, local_from_object.translation, steepest), extent});
   }

@@ -14,8 +14,8 @@
 
 namespace whittle {
 
-/// {p : f(p - center) <= 0}, scaled so that |f| is about the distance near the surface (the gradient
-/// there is at most 1, and 1 where the surface is steepest). Planes have no second degree.
+/// {p : f(p - center) <= 0}, scaled so that |f| is about the distance near the surface (the
+/// gradient there is at most 1, and 1 where the surface is steepest). Planes have no second degree.
 struct HalfSpace {
   Vec3 center;
   Kernels<double>::Quadric f;
@@ -33,16 +33,16 @@ struct Unit {
   uint32_t id = 0;          ///< of the primitive statement
   uint32_t first_face = 0;  ///< into Scene::faces
   uint32_t face_count = 0;
-  Box outer;                ///< holds the primitive; everything if it is unbounded
-  Vec3 inner_center;        ///< a ball that the primitive holds; only where there are many faces
+  Box outer;          ///< holds the primitive; everything if it is unbounded
+  Vec3 inner_center;  ///< a ball that the primitive holds; only where there are many faces
   double inner_radius = 0;
 };
 
 struct Scene {
-  Vec3 origin;  ///< world = local + origin
-  Box region;   ///< local; the solid is looked at in here; empty if the solid is
-  bool bounded = true;  ///< false: the solid may reach beyond the region
-  double tolerance = 0; ///< surfaces this close across are one (docs/conventions.md)
+  Vec3 origin;           ///< world = local + origin
+  Box region;            ///< local; the solid is looked at in here; empty if the solid is
+  bool bounded = true;   ///< false: the solid may reach beyond the region
+  double tolerance = 0;  ///< surfaces this close across are one (docs/conventions.md)
   std::vector<HalfSpace> half_spaces;
   std::vector<Face> faces;
   std::vector<Unit> units;

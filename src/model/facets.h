@@ -24,8 +24,9 @@ struct FragmentSettings {
 /// OpenSCAD's number of fragments of a full circle of radius r (>= 3), saturated at INT_MAX.
 int fragments(double r, FragmentSettings settings);
 
-/// The `facets` field for a curve of radius r: 0 for a true curve. More than kMaxFacets facets are a
-/// true curve too: it lies closer to them than kRelativeTolerance, and no file can ask for billions.
+/// The `facets` field for a curve of radius r: 0 for a true curve. More than kMaxFacets facets are
+/// a true curve too: it lies closer to them than kRelativeTolerance, and no file can ask for
+/// billions.
 inline constexpr int kMaxFacets = 2048;
 int choose_facets(double r, FragmentSettings settings, Curves curves);
 

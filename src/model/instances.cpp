@@ -12,8 +12,13 @@ namespace whittle {
 
 namespace {
 
-double largest_coordinate(const Box& box) {
-  return std::max(max_component(abs(box.lo)), max_component(abs(box.hi)));
+/// Of the bounds' box. Where an unbounded solid's is a single point, its largest coordinate stands
+/// for it, or 1 at the origin.
+double longest_edge(const Bounds& bounds) {
+  const double edge = max_component(bounds.box.size());
+  if (edge > 0 || bounds.bounded) return edge;
+  const double coordinate = max_component(abs(bounds.box.lo));
+  return coordinate > 0 ? coordinate : 1;
 }
 
 /// The half-space in world coordinates, with unit normal.
@@ -219,23 +224,18 @@ Bounds bounds(const Model& model) {
 }
 
 double tolerance(const Bounds& bounds) {
-  return bounds.box.is_empty() ? 0 : kRelativeTolerance * largest_coordinate(bounds.box);
+  return bounds.box.is_empty() ? 0 : kRelativeTolerance * longest_edge(bounds);
 }
 
 Box view_region(const Bounds& bounds) {
   const Box& box = bounds.box;
   if (box.is_empty()) return {};
-  if (bounds.bounded) {
-    // Enough for a surface that lies in a side of the box to be well inside.
-    const double margin = 10 * tolerance(bounds);
-    const Vec3 m = {margin, margin, margin};
-    return {box.lo - m, box.hi + m};
-  }
-  double side = max_component(box.size());
-  if (!(side > 0)) side = largest_coordinate(box);
-  if (!(side > 0)) side = 1;
-  const double half = 0.5 * kUnboundedReach * side;
-  return {box.center() - Vec3{half, half, half}, box.center() + Vec3{half, half, half}};
+  // Bounded: enough for a surface that lies in a side of the box to be well inside.
+  const double margin = 10 * tolerance(bounds);
+  const double half = 0.5 * kUnboundedReach * longest_edge(bounds);
+  const auto all = [](double x) { return Vec3{x, x, x}; };
+  return bounds.bounded ? Box{box.lo - all(margin), box.hi + all(margin)}
+                        : Box{box.center() - all(half), box.center() + all(half)};
 }
 
 std::vector<std::string> transform_warnings(const Model& model) {

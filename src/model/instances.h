@@ -12,9 +12,9 @@ namespace whittle {
 
 /// A primitive that takes part in the solid.
 struct Instance {
-  uint32_t node = 0;        ///< its node in the model
-  uint32_t primitive = 0;   ///< index into Model::primitives
-  bool empty = false;       ///< degenerate shape, or a singular or non-finite transform above it
+  uint32_t node = 0;       ///< its node in the model
+  uint32_t primitive = 0;  ///< index into Model::primitives
+  bool empty = false;      ///< degenerate shape, or a singular or non-finite transform above it
   Affine world_from_object;
 };
 
@@ -46,15 +46,16 @@ Bounds bounds(const Model& model);
 /// preview box, as bounds() with every operand in full; for framing.
 Box instance_box(const Model& model, const Instance& instance);
 
-/// The length below which two surfaces count as one: kRelativeTolerance times the largest
-/// coordinate of the bounds. Texts carry six digits, so nothing finer is meant.
+/// The length below which two surfaces count as one: kRelativeTolerance times the longest edge of
+/// the bounds (docs/decisions/0005-tolerance.md). Texts carry six digits, so nothing finer is
+/// meant. Where an unbounded solid's box is one point, its largest coordinate stands for that edge,
+/// or 1 at the origin.
 double tolerance(const Bounds& bounds);
 inline constexpr double kRelativeTolerance = 2e-6;
 
 /// The region in which the solid is looked at: its bounds a little enlarged, or for an unbounded
-/// solid a cube about their centre, kUnboundedReach times as long as their longest side
-/// (docs/conventions.md); where they are a single point p, its largest coordinate, or 1 at the
-/// origin, stands for that side. Empty for empty bounds.
+/// solid a cube about their centre, kUnboundedReach times as long as their longest edge
+/// (docs/conventions.md). Empty for empty bounds.
 Box view_region(const Bounds& bounds);
 inline constexpr double kUnboundedReach = 1000;
 

@@ -287,6 +287,7 @@ TEST(Bounds, HalfspaceThroughTheOriginStillHasARegion) {
   const Bounds b = bounds(Builder().add(Halfspace{.n = {1, 2, 3}, .d = 0}).done());
   EXPECT_FALSE(b.bounded);
   EXPECT_EQ(view_region(b).size(), (Vec3{1000, 1000, 1000}));
+  EXPECT_EQ(tolerance(b), kRelativeTolerance);
 }
 
 TEST(Bounds, HalfspaceClipsWhatItMeets) {
@@ -299,8 +300,8 @@ TEST(Bounds, HalfspaceClipsWhatItMeets) {
   EXPECT_EQ(b.box, (Box{{0, 0, 0}, {1, 1, 0.5}}));
 }
 
-TEST(Tolerance, ScalesWithTheLargestCoordinate) {
-  EXPECT_EQ(tolerance({.box = {{-100, 0, 0}, {1, 1, 1}}}), 100 * kRelativeTolerance);
+TEST(Tolerance, ScalesWithTheLongestEdge) {
+  EXPECT_EQ(tolerance({.box = {{-99, 0, 1e6}, {1, 1, 1e6 + 1}}}), 100 * kRelativeTolerance);
   EXPECT_EQ(tolerance(Bounds{}), 0);
   EXPECT_TRUE(view_region(Bounds{}).is_empty());
   const Box region = view_region({.box = {{0, 0, 0}, {1, 1, 1}}});

@@ -102,8 +102,8 @@ struct FileView {
 };
 
 struct Model {
-  std::string file;              ///< for messages; "<stdin>" for standard input
-  std::vector<Node> nodes;       ///< preorder; nodes[0] is the implicit union of all statements
+  std::string file;         ///< for messages; "<stdin>" for standard input
+  std::vector<Node> nodes;  ///< preorder; nodes[0] is the implicit union of all statements
   std::vector<Affine> transforms;
   std::vector<Rgba> colors;
   std::vector<Primitive> primitives;  ///< in file order; ids rise, `*` leaves gaps

@@ -31,16 +31,16 @@ struct Cell {
   uint8_t axis = 0;
 };
 
-/// One literal of a leaf. In conjunctions and disjunctions it counts as written; tables and programs
-/// go by whether a point is inside the half-space itself.
+/// One literal of a leaf. In conjunctions and disjunctions it counts as written; tables and
+/// programs go by whether a point is inside the half-space itself.
 struct LeafLiteral {
   Literal literal;
   uint32_t owner;  ///< id of the primitive whose face it is; kSharedOwner: several share it
 };
 inline constexpr uint32_t kSharedOwner = 0;
 
-/// One step of a jump program, after Rossignac's Blist (the paper's references 14 and 16): look at a
-/// literal, go on to one of two steps, until the answer is reached.
+/// One step of a jump program, after Rossignac's Blist (the paper's references 14 and 16): look at
+/// a literal, go on to one of two steps, until the answer is reached.
 struct Step {
   uint32_t literal;  ///< number within the leaf * 2 + 1 if its complement is meant
   uint32_t on_true, on_false;
@@ -50,8 +50,8 @@ inline constexpr uint32_t kAnswerTrue = UINT32_MAX, kAnswerFalse = UINT32_MAX - 
 struct Leaf {
   uint64_t table = 0;  ///< kTable: bit s is the solid where bit i of s says "inside half-space i"
   uint32_t first_literal = 0, literal_count = 0;
-  uint32_t first_step = 0, step_count = 0;      ///< kProgram
-  uint32_t first_token = 0, token_count = 0;    ///< the leaf's formula, kept if an owner is shared
+  uint32_t first_step = 0, step_count = 0;    ///< kProgram
+  uint32_t first_token = 0, token_count = 0;  ///< the leaf's formula, kept if an owner is shared
 };
 
 struct SubdivideStats {

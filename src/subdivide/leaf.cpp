@@ -14,7 +14,9 @@ constexpr uint64_t kVariable[kTableLiterals] = {0xaaaaaaaaaaaaaaaa, 0xcccccccccc
                                                 0xffff0000ffff0000, 0xffffffff00000000};
 
 /// The rows of a table over n literals.
-uint64_t rows(uint32_t n) { return n == kTableLiterals ? ~uint64_t(0) : (uint64_t(1) << (1u << n)) - 1; }
+uint64_t rows(uint32_t n) {
+  return n == kTableLiterals ? ~uint64_t(0) : (uint64_t(1) << (1u << n)) - 1;
+}
 
 bool depends_on(uint64_t table, uint32_t i) {
   const uint64_t with = table & kVariable[i], without = table & ~kVariable[i];
@@ -62,9 +64,9 @@ void LeafAnalysis::analyse(std::span<const Token> formula) {
 }
 
 uint32_t LeafAnalysis::position(uint32_t half_space) const {
-  const auto found = std::lower_bound(
-      half_spaces_.begin(), half_spaces_.end(), half_space,
-      [](const Used& used, uint32_t number) { return used.half_space < number; });
+  const auto found =
+      std::lower_bound(half_spaces_.begin(), half_spaces_.end(), half_space,
+                       [](const Used& used, uint32_t number) { return used.half_space < number; });
   return uint32_t(found - half_spaces_.begin());
 }
 

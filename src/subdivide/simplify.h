@@ -21,21 +21,32 @@ class Simplifier {
   Simplifier(const Scene& scene, double margin) : scene_(scene), margin_(margin) {}
 
   /// Writes to `out` the formula that equals `in` at every point of `cell`, operands in the same
-  /// order; returns its truth, and leaves `out` empty if that is constant. A primitive is replaced by
-  /// those of its faces that cross the cell as soon as the cell is no larger than it, or if
+  /// order; returns its truth, and leaves `out` empty if that is constant. A primitive is replaced
+  /// by those of its faces that cross the cell as soon as the cell is no larger than it, or if
   /// `expand_all`. `in` and `out` must not overlap. Linear in `in` and the faces looked at; what a
   /// decided group holds is skipped.
   Truth simplify(std::span<const Token> in, const Box& cell, bool expand_all, Formula& out);
 
  private:
+  /// What an operand that was kept amounts to for the group around it.
+  struct Kept {
+    uint32_t operands = 1;    ///< more than one if its own operands join that group
+    uint32_t header = kNone;  ///< in `out`, if it is a group of the other kind
+    uint32_t in_group = 0;    ///< that group's operands
+  };
   struct Open {
     TokenKind kind;
     uint32_t in_end;
-    uint32_t header;    ///< in `out`
-    uint32_t operands;  ///< kept so far
+    uint32_t header;        ///< in `out`
+    uint32_t operands = 0;  ///< kept so far
+    Kept last;              ///< the last of them
   };
+  static constexpr uint32_t kNone = UINT32_MAX;
+
   Truth unit(Token token, const CellBox& cell, double cell_edge, bool expand_all, Formula& out,
-             uint32_t& operands);
+             Kept& kept);
+  Kept close_group(const Open& group, Formula& out) const;
+  bool joins_group_around(TokenKind kind, size_t depth) const;
 
   const Scene& scene_;
   double margin_;

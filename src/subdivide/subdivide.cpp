@@ -1,11 +1,11 @@
 #include "subdivide/subdivide.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <optional>
 
+#include "base/workers.h"
 #include "subdivide/leaf.h"
 #include "subdivide/simplify.h"
 
@@ -21,7 +21,9 @@ constexpr size_t kFrontier = 512;
 
 /// A cell whose formula has not become shorter, in itself and in its sibling, over this many splits
 /// in a row is a corner or an edge where many surfaces meet: no split will part them.
-uint32_t stall_limit(uint32_t literals) { return std::max(6u, literals); }
+uint32_t stall_limit(uint32_t literals) {
+  return std::max(6u, literals);
+}
 
 /// A cell on its way: its formula is already simplified for its box.
 struct OpenCell {
@@ -34,13 +36,12 @@ struct OpenCell {
 /// Builds cells, appending to a tree of its own.
 class Builder {
  public:
-  Builder(const Scene& scene, const SubdivideSettings& settings, double margin, double smallest,
-          size_t max_cells)
+  Builder(const Scene& scene, const SubdivideSettings& settings, size_t max_cells)
       : scene_(scene),
         settings_(settings),
-        smallest_(smallest),
+        region_edge_(max_component(scene.region.size())),
         max_cells_(max_cells),
-        simplifier_(scene, margin),
+        simplifier_(scene, region_edge_ * kCellMargin),
         leaf_(scene) {}
 
   CellTree tree;
@@ -52,8 +53,8 @@ class Builder {
     return open(formula, expanded_size(scene_, formula), root, 0);
   }
 
-  /// Ends the cell as a leaf, or splits it and gives its two children, each with a value if it stays
-  /// open.
+  /// Ends the cell as a leaf, or splits it and gives its two children, each with a value if it
+  /// stays open.
   struct Children {
     std::optional<OpenCell> child[2];
   };
@@ -98,7 +99,8 @@ class Builder {
       Children children = step(std::move(now.cell), now.slot);
       const uint32_t first = tree.cells[now.slot].index;
       for (uint32_t side = 2; side-- > 0;)
-        if (children.child[side]) pending.push_back({std::move(*children.child[side]), first + side});
+        if (children.child[side])
+          pending.push_back({std::move(*children.child[side]), first + side});
     }
   }
 
@@ -121,11 +123,12 @@ class Builder {
 
   /// Makes the cell a leaf (or empty, full, ignored) if a rule says so.
   bool end_here(OpenCell& cell, uint32_t slot, uint32_t literals) {
-    const bool too_small = max_component(cell.box.size()) * 0.5 < smallest_;
-    const bool stalled = cell.stalled >= stall_limit(literals);
-    const bool full = tree.cells.size() + 2 > max_cells_;
-    const bool small = too_small || (settings_.is_small && settings_.is_small(world(cell.box)));
-    const bool must_end = small || stalled || full;
+    const double edge = max_component(cell.box.size()) / region_edge_;
+    const bool small = settings_.is_small && settings_.is_small(world(cell.box));
+    const bool useless = !settings_.is_small && edge * edge * literals < settings_.least_use;
+    const bool must_end = small || useless || edge * 0.5 < settings_.smallest_edge ||
+                          cell.stalled >= stall_limit(literals) ||
+                          tree.cells.size() + 2 > max_cells_;
     if (literals > kExpandAll && !must_end) return false;
     if (has_units(cell.formula)) {
       const Formula units = std::move(cell.formula);
@@ -169,13 +172,14 @@ class Builder {
 
   const Scene& scene_;
   const SubdivideSettings& settings_;
-  double smallest_;
+  double region_edge_;
   size_t max_cells_;
   Simplifier simplifier_;
   LeafAnalysis leaf_;
 };
 
-/// Appends a part built elsewhere: its first cell goes to `slot`, all numbers move by what is there.
+/// Appends a part built elsewhere: its first cell goes to `slot`, all numbers move by what is
+/// there.
 void append(CellTree& whole, CellTree&& part, uint32_t slot) {
   const uint32_t cells = uint32_t(whole.cells.size()) - 1, leaves = uint32_t(whole.leaves.size()),
                  literals = uint32_t(whole.literals.size()), steps = uint32_t(whole.steps.size()),
@@ -220,12 +224,7 @@ struct Frontier {
 }  // namespace
 
 CellTree subdivide(const Scene& scene, const SubdivideSettings& settings) {
-  const double edge = max_component(scene.region.size());
-  const double smallest = edge * settings.smallest_edge;
-  const double margin = edge * kCellMargin;
-  const auto builder = [&](size_t max_cells) {
-    return Builder(scene, settings, margin, smallest, max_cells);
-  };
+  const auto builder = [&](size_t max_cells) { return Builder(scene, settings, max_cells); };
 
   Builder top = builder(settings.max_cells);
   top.tree.region = scene.region;
@@ -240,12 +239,12 @@ CellTree subdivide(const Scene& scene, const SubdivideSettings& settings) {
   frontier[0].slot = 0;
   if (!top.open_root(frontier[0].cell)) frontier.clear();
 
-  tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
+  Workers workers(settings.threads);
   while (!frontier.empty() && frontier.size() < kFrontier) {
     std::vector<Frontier> next;
     std::vector<CellTree> parts(frontier.size());
     std::vector<Builder::Children> children(frontier.size());
-    arena.execute([&] {
+    workers.run([&] {
       tbb::parallel_for(size_t(0), frontier.size(), [&](size_t i) {
         Builder part = builder(settings.max_cells);
         part.tree.cells.resize(1);
@@ -257,14 +256,14 @@ CellTree subdivide(const Scene& scene, const SubdivideSettings& settings) {
       append(top.tree, std::move(parts[i]), frontier[i].slot);
       for (uint32_t side = 0; side < 2; ++side)
         if (children[i].child[side])
-          next.push_back({std::move(*children[i].child[side]),
-                          top.tree.cells[frontier[i].slot].index + side});
+          next.push_back(
+              {std::move(*children[i].child[side]), top.tree.cells[frontier[i].slot].index + side});
     }
     frontier = std::move(next);
   }
 
   std::vector<CellTree> parts(frontier.size());
-  arena.execute([&] {
+  workers.run([&] {
     tbb::parallel_for(size_t(0), frontier.size(), [&](size_t i) {
       Builder part = builder(settings.max_cells / frontier.size());
       part.tree.cells.resize(1);

@@ -1,9 +1,9 @@
 // Subdivision: from a formula and a box to cells.
 //
-// Based on: the paper, section 2 (binary subdivision, each cell's tree simplified from its parent's).
-// What we changed: literals are half-spaces; a leaf holds up to k of them, simplified completely by its
-// truth table where there are at most six; no leaf is dropped unless asked for; sub-trees are built in
-// parallel, and the result does not depend on the number of threads.
+// Based on: the paper, section 2 (binary subdivision, each cell's tree simplified from its
+// parent's). What we changed: literals are half-spaces; a leaf holds up to k of them, simplified
+// completely by its truth table where there are at most six; no leaf is dropped unless asked for;
+// sub-trees are built in parallel, and the result does not depend on the number of threads.
 #pragma once
 
 #include <functional>
@@ -23,15 +23,20 @@ enum class LeafRule {
 };
 
 struct SubdivideSettings {
-  uint32_t leaf_size = 4;
+  uint32_t leaf_size = 6;
   SplitRule split = SplitRule::kLongest;
   LeafRule leaf = LeafRule::kHalfSpaces;
-  /// A cell's edge is at least this share of the region's longest edge.
+  /// The smallest useful cell: one with (edge / region's edge)^2 * literals below this is not split
+  /// any more. The square is about the share of rays that meet the cell, the literals are what
+  /// each of them costs there; where surfaces meet for good, splitting soon costs more than it
+  /// saves (measured: docs/decisions/0007-smallest-useful-cell.md). Not used if `is_small` is set.
+  double least_use = 1.0 / 4096;
+  /// No cell's edge gets smaller than this share of the region's longest edge, whatever is in it.
   double smallest_edge = 1.0 / 16384;
   /// If set: a cell (world coordinates) for which this holds is not split any more. The paper's
   /// pixel threshold makes cells depend on the camera.
   std::function<bool(const Box&)> is_small;
-  /// Drop the leaves that `is_small` or `smallest_edge` stopped, as the paper did.
+  /// Drop the leaves that `is_small` stopped, as the paper did.
   bool ignore_small = false;
   /// Beyond about so many cells none is split any more: leaves get longer formulas instead.
   size_t max_cells = size_t(1) << 27;

@@ -6,22 +6,18 @@
 #include <random>
 #include <string>
 
-#include "io/read.h"
 #include "lower/evaluate.h"
 #include "lower/lower.h"
 #include "subdivide/leaf.h"
 #include "subdivide/simplify.h"
 #include "support/random_tree.h"
+#include "support/read_text.h"
 
 namespace whittle {
 namespace {
 
 Scene lowered(const std::string& text) {
-  Result<Read> read = read_csg(text, "test.csg");
-  EXPECT_TRUE(read) << read.error().message;
-  Result<Scene> scene = lower(read->model);
-  EXPECT_TRUE(scene) << scene.error().message;
-  return *std::move(scene);
+  return *lower(model_of(text));
 }
 
 /// Random points of a box, and some on its sides and corners.
@@ -113,7 +109,7 @@ void for_leaves(const CellTree& tree, Visit&& visit) {
 TEST(Classify, InsideAndOutsideAreNeverWrong) {
   Points points(3);
   for (uint64_t seed = 0; seed < 100; ++seed) {
-    const Scene scene = lowered(random_tree_text({.seed = seed}));
+    const Scene scene = lowered(random_tree(seed));
     for (const HalfSpace& h : scene.half_spaces) {
       const Box box = points.box_in(scene.region);
       const Side side = classify(h, CellBox(box, 0));
@@ -140,11 +136,15 @@ TEST(Classify, BoundsOfAPrimitiveAreNeverWrong) {
   EXPECT_GT(proofs, 100);
 }
 
+bool value_of(Truth truth, const Scene& scene, const Formula& formula, Vec3 p) {
+  return truth == Truth::kVaries ? contains(scene, formula, p) : truth == Truth::kTrue;
+}
+
 TEST(Simplify, KeepsTheValueInsideTheCell) {
   Points points(5);
   int shorter = 0, constant = 0;
   for (uint64_t seed = 0; seed < 300; ++seed) {
-    const Scene scene = lowered(random_tree_text({.seed = seed}));
+    const Scene scene = lowered(random_tree(seed));
     if (scene.region.is_empty()) continue;
     Simplifier simplifier(scene, 0);
     Formula outer, inner;
@@ -155,10 +155,7 @@ TEST(Simplify, KeepsTheValueInsideTheCell) {
     for (int i = 0; i < 20; ++i) {
       const Vec3 p = points.in(box);
       const bool whole = contains(scene, scene.formula, p);
-      if (truth == Truth::kVaries)
-        ASSERT_EQ(contains(scene, outer, p), whole) << seed;
-      else
-        ASSERT_EQ(truth == Truth::kTrue, whole) << seed;
+      ASSERT_EQ(value_of(truth, scene, outer, p), whole) << seed;
     }
     if (truth != Truth::kVaries) continue;
     // From the parent's formula as from the whole one.
@@ -167,10 +164,7 @@ TEST(Simplify, KeepsTheValueInsideTheCell) {
     for (int i = 0; i < 20; ++i) {
       const Vec3 p = points.in(child);
       const bool whole = contains(scene, scene.formula, p);
-      if (child_truth == Truth::kVaries)
-        ASSERT_EQ(contains(scene, inner, p), whole) << seed;
-      else
-        ASSERT_EQ(child_truth == Truth::kTrue, whole) << seed;
+      ASSERT_EQ(value_of(child_truth, scene, inner, p), whole) << seed;
     }
   }
   EXPECT_GT(shorter, 100);
@@ -188,7 +182,7 @@ Formula bare(const Formula& formula) {
 TEST(Simplify, TwiceIsOnce) {
   Points points(6);
   for (uint64_t seed = 0; seed < 300; ++seed) {
-    const Scene scene = lowered(random_tree_text({.seed = seed}));
+    const Scene scene = lowered(random_tree(seed));
     if (scene.region.is_empty()) continue;
     Simplifier simplifier(scene, 0);
     Formula once, twice, thrice;
@@ -276,8 +270,7 @@ TEST(Subdivide, EveryLeafIsRightInItsCell) {
   Points points(7);
   std::array<uint64_t, kCellKinds> kinds{};
   for (uint64_t seed = 0; seed < 40; ++seed) {
-    const Scene scene =
-        lowered(random_tree_text({.seed = seed, .primitives = 20, .coincident = seed % 2 == 0}));
+    const Scene scene = lowered(random_tree(seed, {.primitives = 20, .coincident = seed % 2 == 0}));
     if (scene.region.is_empty()) continue;
     for (const Rules& rules : all_rules()) {
       const CellTree tree = subdivide(scene, rules.settings);
@@ -292,9 +285,9 @@ TEST(Subdivide, EveryLeafIsRightInItsCell) {
       });
     }
   }
-  for (const CellKind kind : {CellKind::kNode, CellKind::kEmpty, CellKind::kFull,
-                              CellKind::kConjunction, CellKind::kDisjunction, CellKind::kTable,
-                              CellKind::kProgram})
+  for (const CellKind kind :
+       {CellKind::kNode, CellKind::kEmpty, CellKind::kFull, CellKind::kConjunction,
+        CellKind::kDisjunction, CellKind::kTable, CellKind::kProgram})
     EXPECT_GT(kinds[size_t(kind)], 0u) << int(kind);
   EXPECT_EQ(kinds[size_t(CellKind::kIgnored)], 0u);
 }
@@ -335,7 +328,7 @@ bool same(const CellTree& a, const CellTree& b) {
 
 TEST(Subdivide, DoesNotDependOnTheNumberOfThreads) {
   for (uint64_t seed = 0; seed < 10; ++seed) {
-    const Scene scene = lowered(random_tree_text({.seed = seed, .primitives = 60}));
+    const Scene scene = lowered(random_tree(seed, {.primitives = 60}));
     SubdivideSettings one, four;
     one.threads = 1, four.threads = 4;
     EXPECT_TRUE(same(subdivide(scene, one), subdivide(scene, four))) << seed;

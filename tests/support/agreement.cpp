@@ -20,7 +20,9 @@ struct Looks {
   std::array<Hit, kLooks> hits;
 };
 
-Vec3 to_double(Vec3f v) { return {double(v.x), double(v.y), double(v.z)}; }
+Vec3 to_double(Vec3f v) {
+  return {double(v.x), double(v.y), double(v.z)};
+}
 
 Vec3 point_of(const Ray& ray, const Hit& hit) {
   return ray.origin + ray.direction * double(hit.distance);
@@ -60,6 +62,7 @@ bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double model_t
   if (hit.id != answer.id) return false;
   if (!hit.hit()) return !std::isfinite(hit.distance);
 
+  if (std::fabs(length(to_double(hit.normal)) - 1) > kNormalAgreement) return false;
   double normal_spread = 0;
   for (const Hit& other : looks.hits)
     if (other.id == answer.id)
@@ -190,8 +193,8 @@ std::vector<Camera> cameras_for(const Model& model, int width, int height) {
   // OpenSCAD's field of view, 22.5 degrees.
   const double half_fov = std::atan(1.0) / 4;
 
-  Camera front = look_at(center, {0.57, -0.74, 0.43}, 1.02 * radius / std::sin(half_fov), width,
-                         height);
+  Camera front =
+      look_at(center, {0.57, -0.74, 0.43}, 1.02 * radius / std::sin(half_fov), width, height);
   front.half_height = std::tan(half_fov);
 
   Camera back = look_at(center, {-0.61, 0.53, -0.37}, 3 * radius, width, height);

@@ -30,10 +30,10 @@ inline constexpr double kCertainNormals = 1e-2;
 
 struct AgreementReport {
   int pixels = 0;
-  int hits = 0;       ///< pixels where the oracle hits
-  int ambiguous = 0;  ///< pixels where it does not agree with itself
-  int unexplained = 0;          ///< certain pixels where the subject differs
-  int ambiguous_unmatched = 0;  ///< ambiguous pixels where it gives none of the five answers
+  int hits = 0;                  ///< pixels where the oracle hits
+  int ambiguous = 0;             ///< pixels where it does not agree with itself
+  int unexplained = 0;           ///< certain pixels where the subject differs
+  int ambiguous_unmatched = 0;   ///< ambiguous pixels where it gives none of the five answers
   std::string first_difference;  ///< pixel, ray and both answers; empty if there is none
 };
 

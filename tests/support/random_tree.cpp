@@ -30,7 +30,9 @@ class Random {
   uint64_t state_;
 };
 
-std::string number(double x) { return fmt::format("{:.6g}", x); }
+std::string number(double x) {
+  return fmt::format("{:.6g}", x);
+}
 std::string vector(Vec3 v) {
   return fmt::format("[{}, {}, {}]", number(v.x), number(v.y), number(v.z));
 }
@@ -41,8 +43,7 @@ class Writer {
 
   std::string write() {
     const int statements = random_.whole(1, 3);
-    for (int i = 0; i < statements; ++i)
-      statement(std::max(1, options_.primitives / statements));
+    for (int i = 0; i < statements; ++i) statement(std::max(1, options_.primitives / statements));
     return std::move(text_);
   }
 
@@ -148,8 +149,9 @@ class Writer {
   }
 
   std::string fragments() {
-    const int fn = random_.chance(0.5) ? 0 : options_.coincident ? 4 * random_.whole(1, 3)
-                                                                 : random_.whole(3, 12);
+    const int fn = random_.chance(0.5)   ? 0
+                   : options_.coincident ? 4 * random_.whole(1, 3)
+                                         : random_.whole(3, 12);
     return fmt::format("$fn = {}, $fa = 12, $fs = 2", fn);
   }
 
@@ -163,7 +165,7 @@ class Writer {
       line(fmt::format("sphere({}, r = {});", fragments(), number(coordinate(1, 4))));
     } else if (choice < 9) {
       const double r1 = random_.chance(0.2) ? 0 : coordinate(1, 3);
-      const double r2 = random_.chance(0.5) && r1 > 0 ? r1
+      const double r2 = random_.chance(0.5) && r1 > 0   ? r1
                         : random_.chance(0.2) && r1 > 0 ? 0
                                                         : coordinate(1, 3);
       line(fmt::format("cylinder({}, h = {}, r1 = {}, r2 = {}, center = {});", fragments(),

@@ -2,19 +2,19 @@
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 
 #include "base/result.h"
+#include "base/workers.h"
 #include "trace/cpu/solve.h"
 
 namespace whittle {
 namespace {
 
-constexpr int kTile = 16;            ///< pixels; small enough to balance, large enough to cost nothing
+constexpr int kTile = 16;  ///< pixels; small enough to balance, large enough to cost nothing
 constexpr size_t kProbeChunk = 256;  ///< positions a task
 constexpr uint32_t kMaxDepth = 192;  ///< three axes, each halved at most 64 times
 
@@ -42,7 +42,8 @@ class RayWalker {
     Inside inside = starts_outside && scene_.bounded ? Inside::kNo : Inside::kUnknown;
     Change change;
     if (!walk(ray, span, inside, change)) return {};
-    return {float(change.t + shift), change.id,
+    return {float(change.t + shift),
+            change.id,
             {float(change.normal.x), float(change.normal.y), float(change.normal.z)}};
   }
 
@@ -125,7 +126,7 @@ class CpuTracerImpl final : public CpuTracer {
  public:
   CpuTracerImpl(const Scene& scene, const CellTree& tree, int threads)
       : tree_(tree),
-        arena_(threads > 0 ? threads : tbb::task_arena::automatic),
+        workers_(threads),
         walkers_([&scene, &tree] { return RayWalker(scene, tree); }) {
     WHITTLE_CHECK(tree.stats.depth < kMaxDepth);
   }
@@ -138,12 +139,11 @@ class CpuTracerImpl final : public CpuTracer {
     const int columns = (camera.width + kTile - 1) / kTile,
               rows = (camera.height + kTile - 1) / kTile;
     std::atomic<int> done = 0;
-    arena_.execute([&] {
+    workers_.run([&] {
       tbb::parallel_for(0, columns * rows, [&](int tile) {
         RayWalker& walker = walkers_.local();
         const int x0 = tile % columns * kTile, y0 = tile / columns * kTile;
-        const int x1 = std::min(x0 + kTile, camera.width),
-                  y1 = std::min(y0 + kTile, camera.height);
+        const int x1 = std::min(x0 + kTile, camera.width), y1 = std::min(y0 + kTile, camera.height);
         for (int y = y0; y < y1; ++y)
           for (int x = x0; x < x1; ++x) frame.at(x, y) = walker.trace(camera.ray(x + 0.5, y + 0.5));
         const int now = ++done;
@@ -159,13 +159,13 @@ class CpuTracerImpl final : public CpuTracer {
       std::fill(hits.begin(), hits.end(), Hit{});
       return;
     }
-    arena_.execute([&] {
-      tbb::parallel_for(
-          tbb::blocked_range<size_t>(0, positions.size(), kProbeChunk), [&](const auto& range) {
-            RayWalker& walker = walkers_.local();
-            for (size_t i = range.begin(); i < range.end(); ++i)
-              hits[i] = walker.trace(camera.ray(positions[i].x, positions[i].y));
-          });
+    workers_.run([&] {
+      tbb::parallel_for(tbb::blocked_range<size_t>(0, positions.size(), kProbeChunk),
+                        [&](const auto& range) {
+                          RayWalker& walker = walkers_.local();
+                          for (size_t i = range.begin(); i < range.end(); ++i)
+                            hits[i] = walker.trace(camera.ray(positions[i].x, positions[i].y));
+                        });
     });
   }
 
@@ -183,14 +183,13 @@ class CpuTracerImpl final : public CpuTracer {
 
  private:
   const CellTree& tree_;
-  tbb::task_arena arena_;
+  Workers workers_;
   tbb::enumerable_thread_specific<RayWalker> walkers_;
 };
 
 }  // namespace
 
-std::unique_ptr<CpuTracer> make_cpu_tracer(const Scene& scene, const CellTree& cells,
-                                           int threads) {
+std::unique_ptr<CpuTracer> make_cpu_tracer(const Scene& scene, const CellTree& cells, int threads) {
   return std::make_unique<CpuTracerImpl>(scene, cells, threads);
 }
 

@@ -1,10 +1,10 @@
 // The CPU backend: walks the cells front to back along every ray and solves the leaves it meets,
 // in double precision, on all threads.
 //
-// Based on: the paper, section 3 (ray-tracing inside a cell, clipped to it). What we changed: no cell
-// is rasterised, rays walk the tree; a leaf may hold any number of half-spaces; what a ray found
-// out before a cell (in the solid or not) is carried into it, so a surface that lies on a cell's side
-// is found once and never lost.
+// Based on: the paper, section 3 (ray-tracing inside a cell, clipped to it). What we changed: no
+// cell is rasterised, rays walk the tree; a leaf may hold any number of half-spaces; what a ray
+// found out before a cell (in the solid or not) is carried into it, so a surface that lies on a
+// cell's side is found once and never lost.
 #pragma once
 
 #include <memory>
@@ -17,10 +17,10 @@ namespace whittle {
 /// Work done since the tracer was made.
 struct TraceStats {
   uint64_t rays = 0;
-  uint64_t cells = 0;           ///< cells visited, nodes and leaves
-  uint64_t leaves = 0;          ///< leaves solved
-  uint64_t literals = 0;        ///< half-spaces intersected
-  uint64_t disagreements = 0;   ///< neighbouring cells that disagree on a point between them: none
+  uint64_t cells = 0;          ///< cells visited, nodes and leaves
+  uint64_t leaves = 0;         ///< leaves solved
+  uint64_t literals = 0;       ///< half-spaces intersected
+  uint64_t disagreements = 0;  ///< neighbouring cells that disagree on a point between them: none
 };
 
 /// `scene` and `cells` must outlive the tracer. `threads` 0 means all.

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <string>
 
-#include "io/read.h"
 #include "lower/lower.h"
 #include "subdivide/subdivide.h"
+#include "support/agreement.h"
+#include "support/read_text.h"
 
 namespace whittle {
 namespace {
@@ -15,26 +16,14 @@ namespace {
 /// A model ready to be traced with given rules.
 struct Traced {
   explicit Traced(const std::string& text, const SubdivideSettings& settings = {}) {
-    Result<Read> read = read_csg(text, "test.csg");
-    EXPECT_TRUE(read) << read.error().message;
-    scene = *lower(read->model);
+    scene = *lower(model_of(text));
     cells = subdivide(scene, settings);
     tracer = make_cpu_tracer(scene, cells);
   }
   Traced(const Traced&) = delete;
 
   /// The hit of one ray.
-  Hit hit(Vec3 from, Vec3 to) {
-    Camera camera;
-    camera.eye = from;
-    camera.forward = normalize(to - from);
-    camera.right = normalize(cross(camera.forward, std::fabs(camera.forward.z) < 0.9
-                                                       ? Vec3{0, 0, 1}
-                                                       : Vec3{1, 0, 0}));
-    camera.up = cross(camera.right, camera.forward);
-    camera.width = camera.height = 1;
-    return tracer->render(camera, {}).at(0, 0);
-  }
+  Hit hit(Vec3 from, Vec3 to) { return trace_one(*tracer, from, to - from); }
 
   Scene scene;
   CellTree cells;
@@ -90,9 +79,10 @@ TEST(Cpu, FacesOnSplitsAreNotLost) {
   // The splits of a symmetric region fall on x = 0, and so does a face of each.
   SubdivideSettings fine;
   fine.leaf_size = 1;
-  Traced model("cube([10,10,10]); translate([-10,0,0]) sphere(1); translate([-10,5,5]) cube(4);"
-               "translate([-10,-10,-10]) cube([10,10,10]);",
-               fine);
+  Traced model(
+      "cube([10,10,10]); translate([-10,0,0]) sphere(1); translate([-10,5,5]) cube(4);"
+      "translate([-10,-10,-10]) cube([10,10,10]);",
+      fine);
   expect_hit(model.hit({-5, 5, 2}, {0, 5, 2}), 5, 1, {-1, 0, 0});
   expect_hit(model.hit({5, -5, -5}, {0, -5, -5}), 5, 4, {1, 0, 0});
   EXPECT_EQ(model.tracer->stats().disagreements, 0u);

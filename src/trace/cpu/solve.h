@@ -19,8 +19,8 @@ enum class Inside : int8_t { kNo, kYes, kUnknown };
 /// Where the solid changes along a ray.
 struct Change {
   double t;
-  uint32_t id;      ///< owner primitive
-  Vec3 normal;      ///< unit, outward from the solid
+  uint32_t id;  ///< owner primitive
+  Vec3 normal;  ///< unit, outward from the solid
 };
 
 class LeafSolver {
@@ -28,8 +28,8 @@ class LeafSolver {
   LeafSolver(const Scene& scene, const CellTree& tree) : scene_(scene), tree_(tree) {}
 
   /// Finds the first t in (t0, t1] at which the solid in this leaf changes from what `inside` says,
-  /// or t0 if it differs there already. Otherwise false, and `inside` tells the value at t1. Unknown
-  /// becomes known at t0 and is no change. Crossings at equal t happen together.
+  /// or t0 if it differs there already. Otherwise false, and `inside` tells the value at t1.
+  /// Unknown becomes known at t0 and is no change. Crossings at equal t happen together.
   bool first_change(CellKind kind, const Leaf& leaf, const LocalRay& ray, double t0, double t1,
                     Inside& inside, Change& change);
 
@@ -51,11 +51,11 @@ class LeafSolver {
 
   const Scene& scene_;
   const CellTree& tree_;
-  std::vector<uint8_t> is_inside_;    ///< by literal: inside the half-space itself, at this point
-  std::vector<Crossing> crossings_;   ///< in (t0, t1], sorted
-  Crossing latest_{};                 ///< the last crossing at or before t0
-  uint64_t state_ = 0;                ///< kTable: the bits of is_inside_
-  uint32_t count_ = 0;                ///< conjunction, disjunction: literals that are true
+  std::vector<uint8_t> is_inside_;   ///< by literal: inside the half-space itself, at this point
+  std::vector<Crossing> crossings_;  ///< in (t0, t1], sorted
+  Crossing latest_{};                ///< the last crossing at or before t0
+  uint64_t state_ = 0;               ///< kTable: the bits of is_inside_
+  uint32_t count_ = 0;               ///< conjunction, disjunction: literals that are true
 };
 
 }  // namespace whittle

@@ -6,13 +6,7 @@
 
 namespace whittle {
 
-Coincidence::Coincidence(const Bounds& bounds) : distance(tolerance(bounds)) {
-  // Two planes that are one surface within `distance` may part by no more than that over the model:
-  // half its size away from where they meet. The floor is for double precision itself.
-  const Vec3 size = view_region(bounds).size();
-  const double half = 0.5 * max_component(size) / (bounds.bounded ? 1 : kUnboundedReach);
-  angle = half > 0 ? std::max(distance / half, 1e-9) : 1e-9;
-}
+Coincidence::Coincidence(const Bounds& bounds) : distance(tolerance(bounds)) {}
 
 bool Coincidence::holds(const Crossing& a, const Crossing& b, Vec3 direction) const {
   if (a.t == b.t) return true;

@@ -21,7 +21,9 @@ struct Crossing {
 /// What "the same surface" means in a model of these bounds (docs/conventions.md, Coincidence).
 struct Coincidence {
   double distance = 0;  ///< across, model units
-  double angle = 0;     ///< between the normals, as a sine
+  /// Between the normals, as a sine. Two planes that are one surface within `distance` may part by
+  /// no more than that over the model, that is, half its longest edge away from where they meet.
+  double angle = 2 * kRelativeTolerance;
 
   explicit Coincidence(const Bounds& bounds);
   /// Precondition: the direction is unit.

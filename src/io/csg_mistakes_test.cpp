@@ -1,0 +1,127 @@
+// What is wrong with a file is said in one line, with the place.
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <string>
+#include <utility>
+
+#include "io/csg_test_support.h"
+#include "io/read.h"
+
+namespace whittle {
+namespace {
+
+TEST(CsgMistakes, AreNamedWithTheirPlaces) {
+  const std::pair<std::string, std::string> cases[] = {
+      {"cube(1;", "1:7: error: expected ',' or ')' before ';'"},
+      {"cube(1", "1:7: error: expected ',' or ')' before the end of the file"},
+      {"cube(1)", "1:8: error: expected ';', '{' or a statement before the end of the file"},
+      {"cube(1)}", "1:8: error: expected ';', '{' or a statement before '}'"},
+      {"cube 3;", "1:6: error: expected '(' after 'cube' before '3'"},
+      {"cube([1,,2]);", "1:9: error: expected a value before ','"},
+      {"cube([1 2]);", "1:9: error: expected ',' or ']' before '2'"},
+      {"cube(size=);", "1:11: error: expected a value before ')'"},
+      {"cube();\n\n  }", "3:3: error: no '{' is open for this '}'"},
+      {"union() {\n cube();\n",
+       "3:1: error: expected the '}' for the '{' of line 1, column 9 before the end of the file"},
+      {"translate([1,0,0])",
+       "1:19: error: expected ';', '{' or a statement before the end of the file"},
+      {"translate([1,0,0]) #", "1:21: error: expected a statement before the end of the file"},
+      {"translate([1,0,0]) x = 3;", "1:20: error: expected a statement, not an assignment"},
+      {"%", "1:2: error: expected a statement before the end of the file"},
+      {"\n(", "2:1: error: expected a statement before '('"},
+      {"x = 3 cube();", "1:7: error: expected ';' before 'cube'"},
+      {"cube(1); /* no end",
+       "1:10: error: the comment is not closed: expected '*/' before the end "
+       "of the file"},
+      {"text(\"no end);",
+       "1:6: error: the string is not closed: expected '\"' before the end of "
+       "the file"},
+      {"cube(1x);", "1:6: error: malformed number '1x'"},
+      {"\x89PNG", "1:1: error: expected a statement before the byte 0x89"},
+      {std::string("ab\nc\0", 5), "2:2: error: a NUL byte; this is not a text file"},
+      {"\xff\xfe"
+       "c",
+       "1:1: error: the file is UTF-16 text; save it as UTF-8"},
+      {"cube(1/2);",
+       "1:7: error: expected ',' or ')' before '/' (values must be constants here; only "
+       "a .scad file may have expressions)"},
+      {"for (i = [0:3]) cube(i);",
+       "1:1: error: 'for' is for OpenSCAD to evaluate; give the file a name that ends in .scad"},
+      {"use <a.scad>",
+       "1:1: error: 'use' is for OpenSCAD to evaluate; give the file a name that ends in .scad"},
+      {" polyhedron(points = [1], faces = []);",
+       "1:2: error: polyhedron: points[0] is not a vector of three numbers"},
+      {"polyhedron(points = [[0,0,0]], faces = [[0, 0, 0], [0, 1, 0]]);",
+       "1:1: error: polyhedron: faces[1] names a point that there is not"},
+      {"polyhedron(points = [[0,0,0]], faces = [[0, 0, -1]]);",
+       "1:1: error: polyhedron: faces[0] names a point that there is not"},
+      {"polyhedron(points = [[0,0,0]], faces = [0]);",
+       "1:1: error: polyhedron: faces[0] is not a vector"},
+  };
+  for (const auto& [text, expected] : cases) EXPECT_EQ(read_bad(text), "t.csg:" + expected) << text;
+}
+
+TEST(CsgMistakes, APolyhedronThatIsNotConvexIsRefused) {
+  // A cube with one corner pushed to its middle.
+  const std::string text =
+      "cube();\n polyhedron(points = "
+      "[[0,0,0],[9,0,0],[9,9,0],[0,9,0],[0,0,9],[9,0,9],[5,5,5],[0,9,9]],"
+      " faces = [[0,1,2,3],[4,5,1,0],[5,6,2],[5,2,1],[6,7,3],[6,3,2],[7,4,0,3],[4,7,6],[4,6,5]]);";
+  const std::string message = read_bad(text);
+  EXPECT_TRUE(message.starts_with("t.csg:2:2: error: this polyhedron cannot be used: ")) << message;
+  EXPECT_NE(message.find("not convex"), std::string::npos) << message;
+}
+
+TEST(CsgMistakes, LimitsAreNamed) {
+  EXPECT_EQ(read_bad("group(){group(){group(){}}}", {.max_depth = 2}),
+            "t.csg:1:24: error: statements are nested deeper than the limit of 2");
+  EXPECT_EQ(tree(read_good("group(){group(){cube();}}", {.max_depth = 2}).model), "U(c1)");
+  EXPECT_EQ(read_bad("cube();cube();cube();", {.max_nodes = 3}),
+            "t.csg:1:15: error: there are more statements than the limit of 3");
+  EXPECT_EQ(
+      read_bad("cylinder($fn=8);\nsphere($fn=4);", {.max_facets = 15}),
+      "t.csg:2:1: error: with this shape the model has 16 facets, more than the limit of 15; a "
+      "smaller $fn gives fewer, --curves smooth none");
+  EXPECT_EQ(tree(read_good("cylinder($fn=8);sphere($fn=4);", {.max_facets = 16}).model),
+            "U(y1 s2)");
+}
+
+TEST(CsgMistakes, TheDefaultLimitsLetAMillionLevelsPassAndNoMore) {
+  const auto nested = [](int depth) {
+    std::string text;
+    for (int i = 0; i < depth; ++i) text += "group()";
+    return text + "cube();";
+  };
+  EXPECT_EQ(tree_of(nested(1'000'000)), "U(c1)");
+  EXPECT_EQ(read_bad(nested(1'000'001)),
+            "t.csg:1:7000008: error: statements are nested deeper than the limit of 1000000");
+}
+
+// A file with some of everything.
+constexpr std::string_view kSample =
+    "$vpd = 140; /* c */ x = [1, 2.5e-3, -.5]; // d\n"
+    "%difference() { #translate(x) cube([1, 2, 3], center = true);\n"
+    " multmatrix([[1, 0, 0, 8], [0, 1, 0, 0], [0, 0, 1, 0]]) { sphere(d = 0x1F, $fn = 5); group(); "
+    "}\n"
+    " *cylinder(h = 1, r1 = inf, r2 = -nan); !color(\"red\", 0.5) halfspace(n = [0, 0, 1], d = 1); "
+    "}\n"
+    "text(text = \"A\"b\", size = 1); hull() { polyhedron(points = "
+    "[[0,0,0],[1,0,0],[0,1,0],[0,0,1]], "
+    "faces = [[0,1,2],[0,3,1],[1,3,2],[2,3,0]]); }\n";
+
+TEST(CsgMistakes, ATextCutOffAnywhereIsReadOrRefusedWithAPlace) {
+  EXPECT_EQ(tree_of(kSample), "U(P(h4))");
+  for (size_t size = 0; size < kSample.size(); ++size) {
+    const std::string_view text = kSample.substr(0, size);
+    const Result<Read> read = read_csg(text, "t.csg");
+    if (read) continue;
+    const std::string& message = read.error().message;
+    ASSERT_TRUE(message.starts_with("t.csg:")) << message;
+    ASSERT_TRUE(std::isdigit(message[6])) << message;
+    ASSERT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+}  // namespace
+}  // namespace whittle

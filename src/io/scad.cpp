@@ -1,0 +1,168 @@
+#include "io/scad.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "io/input_file.h"
+#include "io/pending_files.h"
+
+extern char** environ;
+
+namespace whittle {
+namespace {
+
+Error failure(ErrorKind kind, const std::string& path, const std::string& why) {
+  return {kind, fmt::format("{}: error: {}", path, why)};
+}
+
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
+
+/// A folder that nobody else can read, and that goes with what openscad wrote to it.
+class PrivateFolder {
+ public:
+  static std::optional<PrivateFolder> create() {
+    const char* const temporary = std::getenv("TMPDIR");
+    std::string path =
+        fmt::format("{}/whittle-XXXXXX", temporary && *temporary == '/' ? temporary : "/tmp");
+    if (!::mkdtemp(path.data())) return std::nullopt;
+    return PrivateFolder(std::move(path));
+  }
+  PrivateFolder(PrivateFolder&& other) noexcept
+      : path_(std::exchange(other.path_, {})), pending_(std::move(other.pending_)) {}
+  PrivateFolder& operator=(PrivateFolder&&) = delete;
+  ~PrivateFolder() {
+    if (path_.empty()) return;
+    ::unlink(csg().c_str());
+    ::unlink(messages().c_str());
+    ::rmdir(path_.c_str());
+  }
+
+  std::string csg() const { return path_ + "/model.csg"; }
+  std::string messages() const { return path_ + "/messages"; }
+
+ private:
+  explicit PrivateFolder(std::string path)
+      : path_(std::move(path)), pending_(std::make_unique<Pending>(*this)) {}
+
+  struct Pending {
+    explicit Pending(const PrivateFolder& folder)
+        : path(folder.path_), csg(folder.csg()), messages(folder.messages()) {}
+    // The folder first: what is pending is removed from the latest to the first.
+    PendingFile path, csg, messages;
+  };
+
+  std::string path_;
+  std::unique_ptr<Pending> pending_;
+};
+
+std::optional<std::string> find_program(const char* name) {
+  const char* const variable = std::getenv("PATH");
+  std::string_view rest = variable ? variable : "";
+  while (!rest.empty()) {
+    const size_t colon = std::min(rest.find(':'), rest.size());
+    const std::string_view folder = rest.substr(0, colon);
+    rest.remove_prefix(std::min(colon + 1, rest.size()));
+    // An empty entry means the current folder, where a program of that name is rather a trap.
+    if (folder.empty()) continue;
+    std::string candidate = fmt::format("{}/{}", folder, name);
+    if (::access(candidate.c_str(), X_OK) == 0) return candidate;
+  }
+  return std::nullopt;
+}
+
+/// Runs a program, its output and errors in the file `messages`. The status as of waitpid, or the
+/// error number in `error`.
+std::optional<int> run(const std::string& program, const char* const* arguments,
+                       const std::string& messages, int& error) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, messages.c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  pid_t child = 0;
+  error = ::posix_spawn(&child, program.c_str(), &actions, nullptr,
+                        const_cast<char* const*>(arguments), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) return std::nullopt;
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0) {
+    if (errno == EINTR) continue;
+    error = errno;
+    return std::nullopt;
+  }
+  return status;
+}
+
+/// Several lines as one.
+std::string in_one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    if (c != '\n') {
+      line += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    } else if (!line.empty() && !line.ends_with("; ")) {
+      line += "; ";
+    }
+  }
+  if (line.ends_with("; ")) line.resize(line.size() - 2);
+  return line;
+}
+
+}  // namespace
+
+Result<Flattened> flatten_scad(const std::string& path) {
+  const std::optional<std::string> program = find_program("openscad");
+  if (!program) {
+    return failure(ErrorKind::kMachine, path,
+                   "a .scad file is evaluated by openscad, which is not on PATH; install it "
+                   "(apt-get install openscad), or export the model as .csg elsewhere");
+  }
+  // openscad changes its folder to that of the source, so no path may be relative.
+  char* const resolved = ::realpath(path.c_str(), nullptr);
+  if (!resolved) {
+    return failure(ErrorKind::kInput, path, "cannot be read: " + reason(errno));
+  }
+  const std::string source = resolved;
+  std::free(resolved);
+  const std::optional<PrivateFolder> folder = PrivateFolder::create();
+  if (!folder) {
+    return failure(ErrorKind::kMachine, path, "no temporary folder: " + reason(errno));
+  }
+
+  const std::string csg = folder->csg();
+  const char* const arguments[] = {"openscad", "-o", csg.c_str(), source.c_str(), nullptr};
+  int error = 0;
+  const std::optional<int> status = run(*program, arguments, folder->messages(), error);
+  if (!status) {
+    return failure(ErrorKind::kMachine, path,
+                   fmt::format("{} cannot be run: {}", *program, reason(error)));
+  }
+  Flattened flattened;
+  if (Result<std::string> messages = read_text(folder->messages())) {
+    flattened.messages = std::move(*messages);
+  }
+  Result<std::string> text = read_text(csg);
+  if (*status != 0 || !text) {
+    const std::string said = in_one_line(flattened.messages);
+    return failure(ErrorKind::kInput, path,
+                   fmt::format("openscad cannot evaluate it{}{}", said.empty() ? "" : ": ", said));
+  }
+  flattened.csg = std::move(*text);
+  return flattened;
+}
+
+}  // namespace whittle

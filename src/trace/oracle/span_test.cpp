@@ -1,0 +1,171 @@
+#include "trace/oracle/span.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "model/facets.h"
+#include "model/polyhedron.h"
+
+namespace whittle {
+namespace {
+
+/// Positive outside, negative inside, by definition of the shape; in its own coordinates.
+double implicit(const Shape& shape, Vec3 p) {
+  if (const auto* s = std::get_if<Sphere>(&shape); s && s->facets == 0) return length(p) - s->r;
+  if (const auto* s = std::get_if<Cylinder>(&shape); s && s->facets == 0) {
+    const double z0 = s->center ? -s->h / 2 : 0;
+    const double r = s->r1 + (s->r2 - s->r1) * (p.z - z0) / s->h;
+    return std::max({z0 - p.z, p.z - z0 - s->h, std::hypot(p.x, p.y) - r});
+  }
+  double most = -kInfinity;
+  for (const Plane& plane : facet_planes(shape)) most = std::max(most, dot(plane.n, p) - plane.d);
+  return most;
+}
+
+double number(int lo, int hi) {
+  return *rc::gen::inRange(lo * 1000, hi * 1000) / 1000.0;
+}
+Vec3 vector(int reach) {
+  return {number(-reach, reach), number(-reach, reach), number(-reach, reach)};
+}
+
+Shape any_shape() {
+  const int facets = *rc::gen::element(0, 0, 3, 8);
+  const bool center = *rc::gen::arbitrary<bool>();
+  const double r = number(1, 4);
+  switch (*rc::gen::inRange(0, 7)) {
+    case 0:
+      return Sphere{.r = r, .facets = facets};
+    case 1:
+      return Cylinder{.h = number(1, 6), .r1 = r, .r2 = r, .center = center, .facets = facets};
+    case 2:
+      return Cylinder{.h = number(1, 6), .r1 = r, .r2 = 0, .center = center, .facets = facets};
+    case 3:
+      return Cylinder{.h = number(1, 6), .r1 = 0, .r2 = r, .center = center, .facets = facets};
+    case 4:
+      return Cylinder{
+          .h = number(1, 6), .r1 = r, .r2 = number(1, 4), .center = center, .facets = facets};
+    case 5: {
+      Polyhedron p{.points = {{0, 0, 0}, {number(1, 4), 0, 0}, {0, number(1, 4), 0}, {0, 0, r}},
+                   .faces = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}},
+                   .planes = {}};
+      RC_ASSERT(!build_planes(p));
+      return p;
+    }
+    default:
+      return Cube{.size = {number(1, 6), number(1, 6), number(1, 6)}, .center = center};
+  }
+}
+
+/// A random instance of a random shape, as a model.
+struct Placed {
+  Model model;
+  Instance instance;
+};
+
+Placed any_placed() {
+  Placed placed;
+  placed.model.primitives.push_back({any_shape(), 1});
+  Affine& map = placed.instance.world_from_object;
+  for (Vec3& row : map.row) row = vector(2);
+  map.translation = vector(5);
+  RC_PRE(std::fabs(map.determinant()) > 0.5);
+  return placed;
+}
+
+TEST(RaySpan, EndsOnTheSurfaceAndIsInsideBetween) {
+  rc::check([] {
+    const Placed placed = any_placed();
+    const ConvexSolid solid = make_convex_solid(placed.model, placed.instance);
+    const Shape& shape = placed.model.primitives[0].shape;
+    // Aimed at the solid, from far off now and then.
+    const Vec3 target = placed.instance.world_from_object.point(solid.anchor + vector(3));
+    const Vec3 direction = vector(1);
+    RC_PRE(length(direction) > 0.1);
+    const Vec3 d = normalize(direction);
+    const Vec3 origin = target - d * *rc::gen::element(0.0, 10.0, 1e6);
+    const auto value = [&](double t) {
+      return implicit(shape, solid.object_from_world.point(origin + d * t));
+    };
+    const Span span = ray_span(solid, origin, d);
+    const double noise = 1e-8 * (1 + length(origin) * 1e-5);
+    if (span.is_empty()) {
+      // Then no point of the ray is properly inside.
+      const double middle = dot(target - origin, d);
+      for (int i = -400; i <= 400; ++i) RC_ASSERT(value(middle + 0.1 * i) > -noise);
+      return;
+    }
+    RC_ASSERT(std::fabs(value(span.t0)) < noise * 100);
+    RC_ASSERT(std::fabs(value(span.t1)) < noise * 100);
+    for (const double f : {0.1, 0.5, 0.9})
+      RC_ASSERT(value(span.t0 + f * (span.t1 - span.t0)) < noise);
+    const double step = 1e-3 * (span.t1 - span.t0) + 1e-3;
+    RC_ASSERT(value(span.t0 - step) > -noise);
+    RC_ASSERT(value(span.t1 + step) > -noise);
+  });
+}
+
+TEST(RaySpan, NormalsPointOutward) {
+  rc::check([] {
+    const Placed placed = any_placed();
+    const ConvexSolid solid = make_convex_solid(placed.model, placed.instance);
+    const Vec3 origin = vector(10), d = normalize(vector(1));
+    RC_PRE(length(d) > 0);
+    const Span span = ray_span(solid, origin, d);
+    RC_PRE(!span.is_empty());
+    RC_ASSERT(std::fabs(length(span.n0) - 1) < 1e-12);
+    RC_ASSERT(dot(span.n0, d) <= 1e-12);
+    RC_ASSERT(dot(span.n1, d) >= -1e-12);
+    // By the definition of a normal of a convex solid: every other point of it is behind.
+    const Vec3 p0 = origin + d * span.t0, p1 = origin + d * span.t1;
+    const Vec3 inside = placed.instance.world_from_object.point(solid.anchor);
+    RC_ASSERT(dot(inside - p0, span.n0) <= 1e-6);
+    RC_ASSERT(dot(inside - p1, span.n1) <= 1e-6);
+  });
+}
+
+Span span_of(Shape shape, Vec3 origin, Vec3 direction) {
+  Model model;
+  model.primitives.push_back({std::move(shape), 1});
+  return ray_span(make_convex_solid(model, Instance{}), origin, direction);
+}
+
+TEST(RaySpan, TouchingIsNotInside) {
+  EXPECT_TRUE(span_of(Sphere{.r = 1}, {1, -5, 0}, {0, 1, 0}).is_empty());
+  EXPECT_TRUE(span_of(Cylinder{}, {1, 0, -5}, {0, 0, 1}).is_empty());
+  EXPECT_TRUE(span_of(Cylinder{.h = 1, .r1 = 1, .r2 = 0}, {-5, 0, 1}, {1, 0, 0}).is_empty());
+}
+
+TEST(RaySpan, ThroughTheApexOfACone) {
+  const Cylinder cone{.h = 2, .r1 = 1, .r2 = 0};
+  const Span down = span_of(cone, {0, 0, 5}, {0, 0, -1});
+  EXPECT_DOUBLE_EQ(down.t0, 3);
+  EXPECT_DOUBLE_EQ(down.t1, 5);
+  EXPECT_EQ(down.n0, (Vec3{0, 0, 1}));
+  const Span slanted = span_of(cone, {-0.25, 0, 3}, {0.25, 0, -1});
+  EXPECT_DOUBLE_EQ(slanted.t0, 1);
+  EXPECT_DOUBLE_EQ(slanted.t1, 3);
+}
+
+TEST(RaySpan, AlongALineOfTheCone) {
+  // Parallel to the generator x = 1 - z / 2, half a unit nearer to the axis.
+  const Span span = span_of(Cylinder{.h = 2, .r1 = 1, .r2 = 0}, {0.5, 0, 0}, {-0.5, 0, 1});
+  EXPECT_DOUBLE_EQ(span.t0, 0);
+  EXPECT_DOUBLE_EQ(span.t1, 1.5);
+}
+
+TEST(RaySpan, HalfspaceIsHalfALine) {
+  const Span into = span_of(Halfspace{.n = {0, 0, 2}, .d = 2}, {0, 0, 5}, {0, 0, -1});
+  EXPECT_EQ(into.t0, 4);
+  EXPECT_EQ(into.t1, kInfinity);
+  const Span beside = span_of(Halfspace{.n = {0, 0, 2}, .d = 2}, {0, 0, 5}, {1, 0, 0});
+  EXPECT_TRUE(beside.is_empty());
+  const Span below = span_of(Halfspace{.n = {0, 0, 2}, .d = 2}, {0, 0, 0}, {1, 0, 0});
+  EXPECT_EQ(below.t0, -kInfinity);
+  EXPECT_EQ(below.t1, kInfinity);
+}
+
+}  // namespace
+}  // namespace whittle

@@ -1,0 +1,51 @@
+#include "whittle/choices.h"
+
+namespace whittle {
+namespace {
+
+constexpr Choice<Backend> kBackends[] = {
+    {"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"oracle", Backend::kOracle}};
+constexpr Choice<Pass> kPasses[] = {
+    {"color", Pass::kColor}, {"depth", Pass::kDepth}, {"normal", Pass::kNormal}, {"id", Pass::kId}};
+constexpr Choice<FileFormat> kFormats[] = {{"png", FileFormat::kPng}, {"exr", FileFormat::kExr}};
+constexpr Choice<Style> kStyles[] = {
+    {"studio", Style::kStudio}, {"blinn", Style::kBlinn}, {"openscad", Style::kOpenscad}};
+constexpr Choice<Curves> kCurves[] = {
+    {"auto", Curves::kAuto}, {"facets", Curves::kFacets}, {"smooth", Curves::kSmooth}};
+constexpr Choice<SplitRule> kSplits[] = {{"longest", SplitRule::kLongest},
+                                         {"xyz", SplitRule::kXyz}};
+constexpr Choice<bool> kProjections[] = {{"perspective", false},
+                                         {"p", false},
+                                         {"orthogonal", true},
+                                         {"ortho", true},
+                                         {"o", true}};
+constexpr Choice<bool> kSmallCells[] = {{"trace", false}, {"ignore", true}};
+
+}  // namespace
+
+Choices<Backend> backend_choices() {
+  return kBackends;
+}
+Choices<Pass> pass_choices() {
+  return kPasses;
+}
+Choices<FileFormat> format_choices() {
+  return kFormats;
+}
+Choices<Style> style_choices() {
+  return kStyles;
+}
+Choices<Curves> curves_choices() {
+  return kCurves;
+}
+Choices<SplitRule> split_choices() {
+  return kSplits;
+}
+Choices<bool> projection_choices() {
+  return kProjections;
+}
+Choices<bool> small_cells_choices() {
+  return kSmallCells;
+}
+
+}  // namespace whittle

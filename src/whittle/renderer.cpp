@@ -1,0 +1,148 @@
+#include "whittle/renderer.h"
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <chrono>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "image/antialias.h"
+#include "lower/lower.h"
+#include "model/instances.h"
+#include "trace/oracle/oracle.h"
+#include "trace/pixel_threshold.h"
+
+namespace whittle {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+Status check_picture_size(int64_t width, int64_t height) {
+  if (width >= 1 && height >= 1 && width <= kMostSide && height <= kMostSide &&
+      width * height <= kMostPixels) {
+    return Done{};
+  }
+  return Error{ErrorKind::kUsage,
+               fmt::format("a picture of {} x {} pixels is not possible: each side is 1 to {}, "
+                           "and all together at most {} pixels",
+                           width, height, kMostSide, kMostPixels)};
+}
+
+Camera camera_for(const Model& model, const ViewOptions& options) {
+  return make_camera(options, model.view, bounds(model).box);
+}
+
+struct Renderer::State {
+  const Model& model;
+  RendererSettings settings;
+  tbb::task_arena arena;
+  std::vector<Appearance> looks;
+  StageTimes times;
+  // In the order in which they are made from one another.
+  std::optional<Scene> scene;
+  std::optional<CellTree> cells;
+  std::unique_ptr<Tracer> tracer;
+  CpuTracer* cpu = nullptr;  ///< the tracer, if it is that one
+
+  State(const Model& model_, const RendererSettings& settings_)
+      : model(model_),
+        settings(settings_),
+        arena(settings_.threads > 0 ? settings_.threads : tbb::task_arena::automatic) {}
+};
+
+Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+Result<Renderer> Renderer::make(const Model& model, const RendererSettings& settings) {
+  auto state = std::make_unique<State>(model, settings);
+  if (settings.backend == Backend::kAuto) state->settings.backend = Backend::kCpu;
+  const auto start = Clock::now();
+  state->looks = appearances(model);
+  if (state->settings.backend != Backend::kOracle) {
+    Result<Scene> scene = lower(model);
+    if (!scene) return scene.error();
+    state->scene = std::move(*scene);
+  }
+  state->times.lower = milliseconds_since(start);
+  return Renderer(std::move(state));
+}
+
+void Renderer::prepare(const Camera& camera) {
+  State& s = *state_;
+  s.tracer.reset();
+  s.cpu = nullptr;
+  if (s.settings.backend == Backend::kOracle) {
+    s.tracer = make_oracle_tracer(s.model, s.settings.threads);
+    return;
+  }
+  const auto start = Clock::now();
+  s.cells.reset();
+  SubdivideSettings settings = s.settings.subdivide;
+  settings.threads = s.settings.threads;
+  if (s.settings.pixel_threshold > 0) {
+    settings.is_small = [camera, pixels = s.settings.pixel_threshold](const Box& box) {
+      return is_below_pixels(camera, box, pixels);
+    };
+  }
+  s.cells = subdivide(*s.scene, settings);
+  std::unique_ptr<CpuTracer> cpu = make_cpu_tracer(*s.scene, *s.cells, s.settings.threads);
+  s.cpu = cpu.get();
+  s.tracer = std::move(cpu);
+  s.times.subdivide = milliseconds_since(start);
+}
+
+Frame Renderer::trace(const Camera& camera, const Progress& progress) {
+  const auto start = Clock::now();
+  Frame frame = tracer().render(camera, progress);
+  state_->times.trace = milliseconds_since(start);
+  return frame;
+}
+
+Picture Renderer::shade(const Frame& frame, const Camera& camera, const ShadeSettings& settings,
+                        int antialias) {
+  State& s = *state_;
+  const auto start = Clock::now();
+  Picture picture;
+  s.arena.execute([&] {
+    picture = shade_antialiased(tracer(), camera, frame, s.looks, settings, antialias);
+  });
+  s.times.shade = milliseconds_since(start);
+  return picture;
+}
+
+Tracer& Renderer::tracer() {
+  WHITTLE_CHECK(state_->tracer);
+  return *state_->tracer;
+}
+
+Backend Renderer::backend() const {
+  return state_->settings.backend;
+}
+
+const Scene* Renderer::scene() const {
+  return state_->scene ? &*state_->scene : nullptr;
+}
+
+const CellTree* Renderer::cells() const {
+  return state_->cells ? &*state_->cells : nullptr;
+}
+
+TraceStats Renderer::trace_stats() const {
+  return state_->cpu ? state_->cpu->stats() : TraceStats{};
+}
+
+const StageTimes& Renderer::times() const {
+  return state_->times;
+}
+
+}  // namespace whittle

@@ -1,0 +1,83 @@
+// The stages in a row: from a model to its picture. The program, its benchmark and the public API
+// all go this one way.
+#pragma once
+
+#include <memory>
+
+#include "base/result.h"
+#include "image/picture.h"
+#include "image/shade.h"
+#include "lower/scene.h"
+#include "model/model.h"
+#include "subdivide/subdivide.h"
+#include "trace/cpu/cpu.h"
+#include "trace/tracer.h"
+#include "trace/view.h"
+#include "whittle/choices.h"
+
+namespace whittle {
+
+/// Pictures have sides of 1 to kMostSide pixels, and at most kMostPixels in all.
+inline constexpr int kMostSide = 65535;
+inline constexpr int64_t kMostPixels = int64_t(1) << 28;
+/// Rays a side of an edge pixel, and threads, that can be asked for.
+inline constexpr int kMostAntialias = 16;
+inline constexpr int kMostThreads = 1024;
+
+/// A kUsage error if a picture of that size is not made.
+Status check_picture_size(int64_t width, int64_t height);
+
+/// The camera for a model: OpenSCAD's, framing the bounds of the solid where view-all is on.
+Camera camera_for(const Model& model, const ViewOptions& options);
+
+/// Rays a side of an edge pixel that look right where nobody says: OpenSCAD has no antialiasing, so
+/// its style has none.
+constexpr int default_antialias(Style style) { return style == Style::kOpenscad ? 1 : 4; }
+
+struct RendererSettings {
+  Backend backend = Backend::kAuto;
+  int threads = 0;              ///< 0: all
+  SubdivideSettings subdivide;  ///< `threads` and `is_small` are set from here and below
+  double pixel_threshold = 0;   ///< cells whose edges are all shorter are small; 0: none is
+};
+
+/// Milliseconds that each stage took when it was last run.
+struct StageTimes {
+  double lower = 0, subdivide = 0, trace = 0, shade = 0;
+};
+
+/// One model and what is made of it. The steps are called in their order; each can be repeated, and
+/// makes its result anew. The model must outlive the renderer.
+class Renderer {
+ public:
+  /// Fails if the model cannot be lowered.
+  static Result<Renderer> make(const Model& model, const RendererSettings& settings);
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+  ~Renderer();
+
+  /// Makes the cells and the tracer. The camera counts only if there is a pixel threshold. The oracle
+  /// has no cells.
+  void prepare(const Camera& camera);
+  /// Precondition of all below: prepare() was called.
+  Frame trace(const Camera& camera, const Progress& progress = {});
+  Picture shade(const Frame& frame, const Camera& camera, const ShadeSettings& settings,
+                int antialias);
+
+  Tracer& tracer();
+  /// The backend that is used; never kAuto.
+  Backend backend() const;
+  /// Null with the oracle.
+  const Scene* scene() const;
+  const CellTree* cells() const;
+  /// All zero with the oracle.
+  TraceStats trace_stats() const;
+  const StageTimes& times() const;
+
+ private:
+  struct State;
+  explicit Renderer(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace whittle

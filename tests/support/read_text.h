@@ -1,0 +1,21 @@
+// Models from text in tests, where text that cannot be read is a fault of the test.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+#include "io/read.h"
+
+namespace whittle {
+
+/// The model of `text`; stops the program if there is an error. `name` is for messages.
+inline Model model_of(std::string_view text, const std::string& name = "test.csg",
+                      const ReadOptions& options = {}) {
+  Result<Read> read = read_csg(text, name, options);
+  if (!read) std::fprintf(stderr, "%s\n", read.error().message.c_str());
+  WHITTLE_CHECK(read);
+  return std::move(read->model);
+}
+
+}  // namespace whittle
