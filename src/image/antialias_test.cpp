@@ -1,1 +1,220 @@
+#include "image/antialias.h"
+
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <functional>
+
+#include "image/srgb.h"
+#include "trace/view.h"
+
+namespace whittle {
+namespace {
+
+/// A tracer of anything that a function can say about a ray; counts what it is asked.
+class FunctionTracer : public Tracer {
+ public:
+  explicit FunctionTracer(std::function<Hit(const Ray&)> shoot) : shoot_(std::move(shoot)) {}
+  const char* name() const override { return "function"; }
+  Frame render(const Camera& camera, const Progress&) override {
+    Frame frame(camera.width, camera.height);
+    for (int y = 0; y < camera.height; ++y) {
+      for (int x = 0; x < camera.width; ++x) frame.at(x, y) = shoot_(camera.ray(x + 0.5, y + 0.5));
+    }
+    return frame;
+  }
+  void probe(const Camera& camera, std::span<const PixelPosition> positions,
+             std::span<Hit> hits) override {
+    for (size_t i = 0; i < positions.size(); ++i) {
+      hits[i] = shoot_(camera.ray(double(positions[i].x), double(positions[i].y)));
+    }
+    probed += positions.size();
+  }
+  size_t probed = 0;
+
+ private:
+  std::function<Hit(const Ray&)> shoot_;
+};
+
+/// Straight down on the plane z = 0, one unit a pixel, (0, 0) in the middle.
+Camera top_camera(int width, int height) {
+  ViewOptions options = *parse_camera("0,0,0,0,0,0,50");
+  options.orthographic = true;
+  options.width = width;
+  options.height = height;
+  Camera camera = make_camera(options, {}, {});
+  camera.half_height = 0.5 * height;
+  return camera;
+}
+
+/// The plane z = 0, its points with x < edge owned by 1, the others by `right` (0: nothing there).
+FunctionTracer edge_tracer(double edge, uint32_t right) {
+  return FunctionTracer([=](const Ray& ray) -> Hit {
+    const double t = -ray.origin.z / ray.direction.z;
+    const uint32_t id = ray.origin.x + t * ray.direction.x < edge ? 1 : right;
+    return id == 0 ? Hit{} : Hit{float(t), id, {0, 0, 1}};
+  });
+}
+
+const std::vector<Appearance> kBlackAndWhite{
+    {}, {.color = {0, 0, 0, 1}, .cut = false}, {.color = {1, 1, 1, 1}, .cut = false}};
+
+size_t count(const std::vector<uint8_t>& mask) {
+  size_t n = 0;
+  for (const uint8_t m : mask) n += m;
+  return n;
+}
+
+TEST(Antialias, TheShareOfSamplesThatHitIsTheAlpha) {
+  // Half a pixel column and a quarter are covered; the colours stay pure.
+  for (const double share : {0.5, 0.25}) {
+    FunctionTracer tracer = edge_tracer(share, 0);
+    const Camera camera = top_camera(8, 4);
+    const Frame frame = tracer.render(camera, {});
+    ShadeSettings settings;
+    settings.style = Style::kOpenscad;
+    settings.background = false;
+    const Picture p = shade_antialiased(tracer, camera, frame, {}, settings, 4);
+    for (int y = 0; y < 4; ++y) {
+      EXPECT_EQ(p.at(3, y)[3], 255);
+      EXPECT_EQ(p.at(4, y)[3], int(share * 255 + 0.5));
+      EXPECT_EQ(p.at(5, y)[3], 0);
+      for (int k = 0; k < 3; ++k) EXPECT_EQ(p.at(4, y)[k], p.at(3, y)[k]);
+    }
+  }
+}
+
+TEST(Antialias, OnlyPixelsBesideTheEdgeAreTracedAgain) {
+  FunctionTracer tracer = edge_tracer(0.5, 2);
+  const Camera camera = top_camera(20, 10);
+  const Frame frame = tracer.render(camera, {});
+  shade_antialiased(tracer, camera, frame, {}, {}, 3);
+  // The border between pixel columns 9 and 10, or 10 and 11: two columns of ten rows.
+  EXPECT_EQ(tracer.probed, size_t(2 * 10 * 9));
+}
+
+TEST(Antialias, OneSampleIsPlainShading) {
+  FunctionTracer tracer = edge_tracer(0.5, 2);
+  const Camera camera = top_camera(8, 4);
+  const Frame frame = tracer.render(camera, {});
+  EXPECT_EQ(shade_antialiased(tracer, camera, frame, {}, {}, 1).rgba,
+            shade(frame, camera, {}, {}).rgba);
+  EXPECT_EQ(tracer.probed, 0u);
+}
+
+TEST(Antialias, StudioAveragesLightAndTheOthersDisplayValues) {
+  FunctionTracer tracer = edge_tracer(0.5, 2);
+  const Camera camera = top_camera(8, 4);
+  const Frame frame = tracer.render(camera, {});
+  for (const Style style : {Style::kStudio, Style::kBlinn, Style::kOpenscad}) {
+    ShadeSettings settings;
+    settings.style = style;
+    const Picture p = shade_antialiased(tracer, camera, frame, kBlackAndWhite, settings, 2);
+    const float dark = float(p.at(0, 1)[1]) / 255, bright = float(p.at(7, 1)[1]) / 255;
+    const float mean =
+        style == Style::kStudio
+            ? srgb_from_linear((linear_from_srgb(dark) + linear_from_srgb(bright)) / 2)
+            : (dark + bright) / 2;
+    // The highlight of the light at the eye is not the same in each pixel.
+    EXPECT_NEAR(float(p.at(4, 1)[1]), mean * 255, 3) << int(style);
+  }
+}
+
+/// What a ray sees of a ball of radius r about the origin.
+Hit ball(const Ray& ray, double r) {
+  const double b = dot(ray.origin, ray.direction);
+  const double q = b * b - dot(ray.origin, ray.origin) + r * r;
+  if (q < 0) return {};
+  const double t = -b - std::sqrt(q);
+  const Vec3 n = normalize(ray.origin + ray.direction * t);
+  return {float(t), 1, {float(n.x), float(n.y), float(n.z)}};
+}
+
+TEST(Antialias, TheInsideOfABallIsNoEdgeAndItsOutlineIs) {
+  for (const bool orthographic : {false, true}) {
+    ViewOptions options;
+    options.orthographic = orthographic;
+    options.width = options.height = 200;
+    const Camera camera = make_camera(options, {}, Box{{-5, -5, -5}, {5, 5, 5}});
+    FunctionTracer tracer([](const Ray& ray) { return ball(ray, 5); });
+    const Frame frame = tracer.render(camera, {});
+    const std::vector<uint8_t> mask = edge_mask(frame, camera);
+    size_t hits = 0;
+    for (int y = 1; y + 1 < 200; ++y) {
+      for (int x = 1; x + 1 < 200; ++x) {
+        hits += frame.at(x, y).hit();
+        const bool outline = frame.at(x, y).hit() != frame.at(x + 1, y).hit();
+        if (outline) {
+          EXPECT_TRUE(mask[size_t(y) * 200 + size_t(x)] && mask[size_t(y) * 200 + size_t(x) + 1]);
+        }
+      }
+    }
+    EXPECT_GT(hits, 5000u);
+    EXPECT_LT(count(mask), hits / 5);
+  }
+}
+
+TEST(Antialias, APlaneSeenAtAGrazingAngleIsNoEdge) {
+  ViewOptions options = *parse_camera("0,0,0,85,0,30,50");
+  options.width = options.height = 64;
+  for (const bool orthographic : {false, true}) {
+    options.orthographic = orthographic;
+    const Camera camera = make_camera(options, {}, {});
+    FunctionTracer tracer([](const Ray& ray) -> Hit {
+      const double t = -ray.origin.z / ray.direction.z;
+      return t > ray.t_min ? Hit{float(t), 1, {0, 0, 1}} : Hit{};
+    });
+    const Frame frame = tracer.render(camera, {});
+    const std::vector<uint8_t> mask = edge_mask(frame, camera);
+    for (int y = 2; y < 64; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        if (!frame.at(x, y - 2).hit()) continue;
+        EXPECT_FALSE(mask[size_t(y) * 64 + size_t(x)]) << x << " " << y;
+      }
+    }
+    EXPECT_TRUE(frame.at(32, 60).hit());
+  }
+}
+
+TEST(Antialias, AStepInDepthOfOneOwnerIsAnEdge) {
+  const auto step_tracer = [](double height) {
+    return FunctionTracer([=](const Ray& ray) -> Hit {
+      const double t = -ray.origin.z / ray.direction.z;
+      return {float(ray.origin.x < 0 ? t : t - height), 1, {0, 0, 1}};
+    });
+  };
+  const Camera camera = top_camera(8, 4);
+  FunctionTracer low = step_tracer(1), high = step_tracer(3);
+  EXPECT_EQ(count(edge_mask(low.render(camera, {}), camera)), 0u);
+  EXPECT_EQ(count(edge_mask(high.render(camera, {}), camera)), 8u);
+}
+
+TEST(Antialias, ACreaseOfOneOwnerIsAnEdge) {
+  const auto crease_tracer = [](double degrees) {
+    return FunctionTracer([=](const Ray& ray) -> Hit {
+      const double slope = std::tan(degrees * std::acos(-1.0) / 180) * (ray.origin.x > 0);
+      const double t = ray.origin.z + slope * ray.origin.x;
+      const Vec3 n = normalize(Vec3{slope, 0, 1});
+      return {float(t), 1, {float(n.x), float(n.y), float(n.z)}};
+    });
+  };
+  const Camera camera = top_camera(8, 4);
+  FunctionTracer flat = crease_tracer(7), sharp = crease_tracer(9);
+  EXPECT_EQ(count(edge_mask(flat.render(camera, {}), camera)), 0u);
+  EXPECT_EQ(count(edge_mask(sharp.render(camera, {}), camera)), 8u);
+}
+
+TEST(Antialias, IsTheSameOnOneThread) {
+  ViewOptions options;
+  options.width = options.height = 100;
+  const Camera camera = make_camera(options, {}, Box{{-5, -5, -5}, {5, 5, 5}});
+  FunctionTracer tracer([](const Ray& ray) { return ball(ray, 5); });
+  const Frame frame = tracer.render(camera, {});
+  const Picture p = shade_antialiased(tracer, camera, frame, {}, {}, 4);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_EQ(shade_antialiased(tracer, camera, frame, {}, {}, 4).rgba, p.rgba);
+}
+
+}  // namespace
+}  // namespace whittle

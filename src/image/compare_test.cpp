@@ -114,8 +114,8 @@ TEST(Compare, TheDescriptionNamesTheFirstPixelAndBothFacts) {
   b.at(7, 2).id = 12;
   b.at(8, 2) = Hit{};
   const std::string text = describe(compare(a, b));
-  for (const char* part : {"2 of 100 pixels differ", "hit 1", "id 1", "(7, 2)", "a: id 3 at 100",
-                           "b: id 12 at 100"}) {
+  for (const char* part :
+       {"2 of 100 pixels differ", "hit 1", "id 1", "(7, 2)", "a: id 3 at 100", "b: id 12 at 100"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
   }
 }

@@ -36,12 +36,13 @@ constexpr FactChannel kFactChannels[] = {
 };
 
 /// The frame's hits as the place that facts are read from or written to.
-Imf::FrameBuffer fact_buffer(const Hit* hits, int width) {
+Imf::FrameBuffer fact_buffer(const Hit* hits, const Imath::Box2i& window) {
   Imf::FrameBuffer buffer;
-  char* base = reinterpret_cast<char*>(const_cast<Hit*>(hits));
+  const size_t width = size_t(int64_t(window.max.x) - window.min.x + 1);
   for (const FactChannel& c : kFactChannels) {
+    const char* first = reinterpret_cast<const char*>(hits) + c.offset;
     buffer.insert(c.name,
-                  Imf::Slice(c.type, base + c.offset, sizeof(Hit), sizeof(Hit) * size_t(width)));
+                  Imf::Slice::Make(c.type, first, window, sizeof(Hit), sizeof(Hit) * width));
   }
   return buffer;
 }
@@ -91,9 +92,7 @@ Result<Frame> read_facts(const std::string& path) {
     return bad_file(path, "the picture is empty or too large");
   }
   Frame frame{int(width), int(height)};
-  // OpenEXR counts from the origin of its plane, which need not be the window's corner.
-  file.setFrameBuffer(
-      fact_buffer(frame.hits.data() - (window.min.x + window.min.y * width), int(width)));
+  file.setFrameBuffer(fact_buffer(frame.hits.data(), window));
   file.readPixels(window.min.y, window.max.y);
   return frame;
 }
@@ -107,7 +106,7 @@ Status write_exr(const std::string& path, const Frame& frame, const Picture& pic
   try {
     Imf::Header header(frame.width, frame.height);
     header.compression() = Imf::ZIP_COMPRESSION;
-    Imf::FrameBuffer buffer = fact_buffer(frame.hits.data(), frame.width);
+    Imf::FrameBuffer buffer = fact_buffer(frame.hits.data(), header.dataWindow());
     for (const FactChannel& c : kFactChannels) header.channels().insert(c.name, c.type);
     std::vector<half> colors = linear_colors(picture);
     const char* const names[] = {"R", "G", "B", "A"};

@@ -1,7 +1,7 @@
 #include "image/exr.h"
 
-#include <ImfArray.h>
 #include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
@@ -17,7 +17,9 @@
 namespace whittle {
 namespace {
 
-std::string temporary(const std::string& name) { return testing::TempDir() + "whittle_" + name; }
+std::string temporary(const std::string& name) {
+  return testing::TempDir() + "whittle_" + name;
+}
 
 /// Every bit pattern may stand in a frame: nothing may be lost.
 Frame random_frame(int width, int height, uint32_t seed) {
@@ -108,7 +110,7 @@ void write_channels(const std::string& path, std::initializer_list<const char*> 
   for (const char* name : names) {
     const Imf::PixelType own = std::string(name) == "id" ? id_type : type;
     header.channels().insert(name, own);
-    buffer.insert(name, Imf::Slice(own, reinterpret_cast<char*>(zeros.data()), 0, 0));
+    buffer.insert(name, Imf::Slice::Make(own, zeros.data(), window));
   }
   Imf::OutputFile file(path.c_str(), header);
   file.setFrameBuffer(buffer);
@@ -178,8 +180,11 @@ RC_GTEST_PROP(Exr, DamagedFilesNeverCrash, ()) {
   }
   write_all(path, bytes);
   const Result<Frame> read = read_exr(path);
-  RC_ASSERT(read ? read->hits.size() == size_t(read->width) * size_t(read->height)
-                 : !read.error().message.empty());
+  if (read) {
+    RC_ASSERT(read->hits.size() == size_t(read->width) * size_t(read->height));
+  } else {
+    RC_ASSERT(!read.error().message.empty());
+  }
 }
 
 }  // namespace

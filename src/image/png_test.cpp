@@ -9,7 +9,9 @@
 namespace whittle {
 namespace {
 
-std::string temporary(const std::string& name) { return testing::TempDir() + "whittle_" + name; }
+std::string temporary(const std::string& name) {
+  return testing::TempDir() + "whittle_" + name;
+}
 
 Picture random_picture(int width, int height, uint32_t seed) {
   Picture picture(width, height);

@@ -1,1 +1,220 @@
+#include "image/shade.h"
+
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "trace/view.h"
+
+namespace whittle {
+namespace {
+
+/// A camera as OpenSCAD's default view: rotation (55, 0, 25).
+Camera default_camera(int width = 4, int height = 4) {
+  ViewOptions options;
+  options.width = width;
+  options.height = height;
+  return make_camera(options, {}, Box{{-5, -5, -5}, {5, 5, 5}});
+}
+
+Rgb8 at(const Picture& p, int x, int y) {
+  return {p.at(x, y)[0], p.at(x, y)[1], p.at(x, y)[2]};
+}
+
+/// The colour of one hit in the middle of the picture.
+Rgb8 shade_one(const Hit& hit, const Camera& camera, std::span<const Appearance> appearances,
+               const ShadeSettings& settings) {
+  const Shader shader(camera, appearances, settings);
+  uint8_t rgba[4];
+  shader.store(shader.color(hit, float(camera.width) / 2, float(camera.height) / 2), 1, rgba);
+  return {rgba[0], rgba[1], rgba[2]};
+}
+
+/// Id 1: material; 2: cut; 3: coloured cut; 4: colour with a component unset.
+const std::vector<Appearance> kAppearances{
+    {},
+    {},
+    {.color = {}, .cut = true},
+    {.color = {1, 0, 0.4f, 0.25f}, .cut = true},
+    {.color = {1, 0, 0.5f, -1}, .cut = false},
+};
+
+ShadeSettings styled(Style style) {
+  ShadeSettings settings;
+  settings.style = style;
+  return settings;
+}
+
+constexpr Style kAllStyles[] = {Style::kStudio, Style::kBlinn, Style::kOpenscad};
+
+TEST(Shade, OpenscadValuesAreThoseMeasuredInOpenscad) {
+  const auto face = [](Vec3f n) {
+    return shade_one({30, 1, n}, default_camera(), kAppearances, styled(Style::kOpenscad));
+  };
+  EXPECT_EQ(face({0, 0, 1}), (Rgb8{250, 216, 44}));
+  EXPECT_EQ(face({0, -1, 0}), (Rgb8{143, 123, 25}));
+  EXPECT_EQ(face({1, 0, 0}), (Rgb8{165, 143, 29}));
+}
+
+TEST(Shade, OpenscadColorsFollowTheAppearance) {
+  const auto base = [](uint32_t id) {
+    // Where |n.l| = 0.8 the base colour is seen as it is.
+    const Camera camera = default_camera();
+    const Vec3 l = normalize(camera.up - camera.right - camera.forward);
+    const Vec3 across = normalize(cross(l, Vec3{0, 0, 1}));
+    const Vec3 n = l * 0.8 + across * 0.6;
+    const Hit hit{30, id, {float(n.x), float(n.y), float(n.z)}};
+    return shade_one(hit, camera, kAppearances, styled(Style::kOpenscad));
+  };
+  EXPECT_EQ(base(1), (Rgb8{0xF9, 0xD7, 0x2C}));
+  EXPECT_EQ(base(2), (Rgb8{0x9D, 0xCB, 0x51}));
+  EXPECT_EQ(base(3), (Rgb8{255, 0, 102}));
+  EXPECT_EQ(base(4), (Rgb8{0xF9, 0xD7, 0x2C}));
+  EXPECT_EQ(base(999), (Rgb8{0xF9, 0xD7, 0x2C})) << "an id that the model does not know";
+}
+
+TEST(Shade, ASchemeReplacesTheColorsInEveryStyle) {
+  for (const Style style : kAllStyles) {
+    ShadeSettings settings = styled(style);
+    settings.scheme = find_color_scheme("Sunset");
+    const Picture p = shade(Frame(4, 4), default_camera(), {}, settings);
+    EXPECT_EQ(at(p, 1, 2), (Rgb8{0xAA, 0x44, 0x44}));
+    EXPECT_EQ(p.at(1, 2)[3], 255);
+  }
+}
+
+TEST(Shade, ClearSkyRunsFromTopToBottom) {
+  ShadeSettings settings = styled(Style::kOpenscad);
+  settings.scheme = find_color_scheme("ClearSky");
+  const Picture p = shade(Frame(2, 400), default_camera(2, 400), {}, settings);
+  EXPECT_EQ(at(p, 0, 0), (Rgb8{0x87, 0xCE, 0xEB}));
+  EXPECT_EQ(at(p, 1, 399), (Rgb8{0xC9, 0xE9, 0xF6}));
+  EXPECT_EQ(at(p, 0, 199).r, (0x87 + 0xC9) / 2);
+}
+
+TEST(Shade, WithoutBackgroundWhatIsNotHitIsTransparent) {
+  Frame frame(2, 1);
+  frame.at(1, 0) = {30, 1, {0, 0, 1}};
+  for (const Style style : kAllStyles) {
+    ShadeSettings settings = styled(style);
+    settings.background = false;
+    const Picture p = shade(frame, default_camera(2, 1), kAppearances, settings);
+    EXPECT_EQ(p.at(0, 0)[3], 0);
+    EXPECT_EQ(p.at(1, 0)[3], 255);
+  }
+}
+
+/// Algorithm 4 of the paper, in double and with pow.
+Rgb8 blinn_reference(const Camera& camera, Vec3 light, const Hit& hit, Vec3f base, double px,
+                     double py) {
+  const Ray ray = camera.ray(px, py);
+  Vec3 n{hit.normal.x, hit.normal.y, hit.normal.z};
+  if (dot(n, ray.direction) > 0) n = -n;
+  const Vec3 point = ray.origin + ray.direction * double(hit.distance);
+  const Vec3 l = normalize(light - point);
+  const double n_l = std::max(dot(n, l), 0.0);
+  const double n_h = std::max(dot(n, normalize(l - ray.direction)), 0.0);
+  const double white = n_l > 0 ? 0.3 * std::pow(n_h, 16) : 0;
+  const auto byte = [&](double b) {
+    return uint8_t(std::clamp(std::lround((b * (0.2 + 0.7 * n_l) + white) * 255), 0L, 255L));
+  };
+  return {byte(base.x), byte(base.y), byte(base.z)};
+}
+
+int distance(Rgb8 a, Rgb8 b) {
+  return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
+RC_GTEST_PROP(Shade, BlinnIsThePapersFormula, ()) {
+  const auto unit = [] { return *rc::gen::inRange(-1000, 1001) / 1000.0; };
+  ViewOptions options;
+  options.rotation_degrees = Vec3{unit() * 180, unit() * 180, unit() * 180};
+  options.orthographic = *rc::gen::arbitrary<bool>();
+  // Far from the origin nothing changes, as all is relative to the eye.
+  options.target = Vec3{1e6 * *rc::gen::inRange(-1, 2), 7, 0};
+  const Camera camera = make_camera(options, {}, {});
+  const Vec3 n = normalize(Vec3{unit(), unit(), unit() + 1e-3});
+  const Hit hit{float(100 + 50 * unit()), 3, {float(n.x), float(n.y), float(n.z)}};
+  ShadeSettings settings = styled(Style::kBlinn);
+  if (*rc::gen::arbitrary<bool>()) {
+    settings.light = *options.target + Vec3{unit(), unit(), unit()} * 200;
+  }
+  const float px = 512 * float(std::fabs(unit())), py = 512 * float(std::fabs(unit()));
+  const Shader shader(camera, kAppearances, settings);
+  uint8_t rgba[4];
+  shader.store(shader.color(hit, px, py), 1, rgba);
+  const Rgb8 expected = blinn_reference(camera, settings.light.value_or(camera.eye), hit,
+                                        {1, 0, 0.4f}, double(px), double(py));
+  RC_ASSERT(distance({rgba[0], rgba[1], rgba[2]}, expected) <= 1);
+}
+
+TEST(Shade, BlinnBehindTheLightIsAmbientAlone) {
+  ShadeSettings settings = styled(Style::kBlinn);
+  settings.light = Vec3{0, 0, -1000};
+  const Hit hit{36, 3, {0, 0, 1}};
+  EXPECT_EQ(shade_one(hit, default_camera(), kAppearances, settings), (Rgb8{51, 0, 20}));
+}
+
+RC_GTEST_PROP(Shade, BothSidesOfASurfaceLookAlike, ()) {
+  const auto unit = [] { return float(*rc::gen::inRange(-1000, 1001)) / 1000; };
+  const Vec3f n = normalize(Vec3f{unit(), unit(), unit() + 1e-3f});
+  for (const Style style : kAllStyles) {
+    const Rgb8 a = shade_one({30, 1, n}, default_camera(), kAppearances, styled(style));
+    const Rgb8 b = shade_one({30, 1, -n}, default_camera(), kAppearances, styled(style));
+    RC_ASSERT(a == b);
+  }
+}
+
+TEST(Shade, StudioTellsTheThreeFacesOfACubeApart) {
+  const auto face = [](Vec3f n) {
+    return shade_one({30, 1, n}, default_camera(), kAppearances, styled(Style::kStudio)).g;
+  };
+  const int top = face({0, 0, 1}), front = face({0, -1, 0}), side = face({1, 0, 0});
+  EXPECT_GT(top, front + 20);
+  EXPECT_GT(front, side + 20);
+  EXPECT_LT(top, 245) << "room for the highlight";
+  EXPECT_GT(side, 90) << "no side is lost in the dark";
+}
+
+TEST(Shade, StudioHonoursColors) {
+  const Rgb8 c =
+      shade_one({30, 3, {0, 0, 1}}, default_camera(), kAppearances, styled(Style::kStudio));
+  EXPECT_GT(c.r, c.b + 60);
+  EXPECT_GT(c.b, c.g + 40);
+  const Hit material{30, 1, {0, 0, 1}}, cut{30, 2, {0, 0, 1}};
+  EXPECT_GT(distance(shade_one(material, default_camera(), kAppearances, styled(Style::kStudio)),
+                     shade_one(cut, default_camera(), kAppearances, styled(Style::kStudio))),
+            20);
+}
+
+TEST(Shade, ThePictureIsTheShadersColorOfEveryPixelWhateverTheThreads) {
+  Frame frame(61, 47);
+  uint32_t seed = 1;
+  const auto unit = [&] {
+    seed = seed * 1664525u + 1013904223u;
+    return float(seed >> 8) / float(1 << 23) - 1;
+  };
+  for (Hit& h : frame.hits) {
+    if (unit() > 0) h = {30 + unit(), 1 + (seed >> 30), normalize(Vec3f{unit(), unit(), unit()})};
+  }
+  const Camera camera = default_camera(61, 47);
+  for (const Style style : kAllStyles) {
+    const Picture p = shade(frame, camera, kAppearances, styled(style));
+    const Shader shader(camera, kAppearances, styled(style));
+    for (int y = 0; y < frame.height; ++y) {
+      for (int x = 0; x < frame.width; ++x) {
+        uint8_t rgba[4];
+        shader.store(shader.color(frame.at(x, y), float(x) + 0.5f, float(y) + 0.5f), 1, rgba);
+        ASSERT_TRUE(std::equal(rgba, rgba + 4, p.at(x, y))) << x << " " << y;
+      }
+    }
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_EQ(shade(frame, camera, kAppearances, styled(style)).rgba, p.rgba);
+  }
+}
+
+}  // namespace
+}  // namespace whittle

@@ -68,11 +68,11 @@ TEST(Degrees, ExactWhereKnown) {
 }
 
 TEST(Degrees, AgreeWithRadians) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const double degrees = *rc::gen::inRange(-100000000, 100000000) / 1e5;
     RC_ASSERT(std::fabs(sin_degrees(degrees) - std::sin(degrees * std::numbers::pi / 180)) < 1e-12);
     RC_ASSERT(std::fabs(cos_degrees(degrees) - std::cos(degrees * std::numbers::pi / 180)) < 1e-12);
-  });
+  }));
 }
 
 TEST(FacetPlanes, CubeStandsWhereItShould) {
@@ -128,7 +128,7 @@ TEST(FacetPlanes, HalfspaceIsNormalised) {
 }
 
 TEST(FacetPlanes, AndVerticesAreTheSameSolid) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const int n = *rc::gen::inRange(3, 40);
     const double r1 = *rc::gen::inRange(0, 1000) / 100.0, r2 = *rc::gen::inRange(1, 1000) / 100.0,
                  h = *rc::gen::inRange(1, 2000) / 100.0;
@@ -150,7 +150,7 @@ TEST(FacetPlanes, AndVerticesAreTheSameSolid) {
                   return std::fabs(dot(plane.n, p) - plane.d) < 1e-12;
                 }) >= 3);
     }
-  });
+  }));
 }
 
 TEST(IsEmpty, SizesThatAreNone) {

@@ -146,7 +146,7 @@ TEST(BuildPlanes, TwoSeparateBoxesAreNotConvex) {
 
 TEST(BuildPlanes, SixDigitCornersAreAccepted) {
   // Facetted spheres as OpenSCAD would dump them: four-cornered faces, slivers next to the caps.
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const int n = *rc::gen::inRange(3, 40), rings = (n + 1) / 2;
     const double r = *rc::gen::inRange(100, 100000) / 777.0;
     const Vec3 shift = Vec3{1, 0.7, -0.3} * (*rc::gen::inRange(-1000, 1000) / 999.0 * r);
@@ -170,7 +170,7 @@ TEST(BuildPlanes, SixDigitCornersAreAccepted) {
       RC_ASSERT(outside(p.planes, q) > -1e-4 * r);
     }
     RC_ASSERT(outside(p.planes, shift + Vec3{1.01, 0, 0} * r) > 0);
-  });
+  }));
 }
 
 TEST(BuildPlanes, SliverInALargeFaceDoesNotTiltIt) {

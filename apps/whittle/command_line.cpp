@@ -1,0 +1,334 @@
+#include "command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "console.h"
+
+namespace whittle {
+namespace {
+
+/// CLI11's help with our usage line.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  explicit HelpFormatter(std::string usage) : usage_(std::move(usage)) { column_width(33); }
+
+  std::string make_usage(const CLI::App*, std::string) const override {
+    return "\nUsage: " + usage_ + "\n";
+  }
+  std::string make_positionals(const CLI::App*) const override { return {}; }
+  /// Without what CLI11 says about types and multiplicity: our descriptions do.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    if (option->get_type_size() == 0) return {};
+    return " " + option->get_type_name();
+  }
+
+ private:
+  std::string usage_;
+};
+
+[[noreturn]] void refuse(const char* option, const std::string& why) {
+  throw CLI::ValidationError(option, why);
+}
+
+/// `count` finite numbers separated by commas.
+template <size_t count>
+std::array<double, count> parse_numbers(const char* option, std::string_view text) {
+  std::array<double, count> numbers{};
+  size_t found = 0;
+  for (std::string_view rest = text;; ++found) {
+    const size_t comma = rest.find(',');
+    std::string_view word = rest.substr(0, comma);
+    while (word.starts_with(' ')) word.remove_prefix(1);
+    while (word.ends_with(' ')) word.remove_suffix(1);
+    double value = 0;
+    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (code != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
+      refuse(option, fmt::format("'{}' is not a number (in '{}')", word, text));
+    }
+    if (found < count) numbers[found] = value;
+    if (comma == std::string_view::npos) break;
+    rest.remove_prefix(comma + 1);
+  }
+  if (found + 1 != count) {
+    refuse(option, fmt::format("wants {} numbers, not the {} of '{}'", count, found + 1, text));
+  }
+  return numbers;
+}
+
+double parse_number(const char* option, std::string_view text) {
+  return parse_numbers<1>(option, text)[0];
+}
+
+/// Adds options under one heading of the help.
+class OptionGroup {
+ public:
+  OptionGroup(CLI::App& app, const char* heading) : app_(app), heading_(heading) {}
+
+  void add_flag(const char* names, bool& given, const char* description) {
+    app_.add_flag(names, given, description)->group(heading_);
+  }
+
+  /// An option whose value `set` reads, and refuses if it must.
+  template <class Set>
+  void add_text(const char* name, const char* value, const std::string& description,
+                const Set& set) {
+    app_.add_option_function<std::string>(name, set, description)
+        ->type_name(value)
+        ->group(heading_);
+  }
+
+  /// An option whose value is one of some names; `{}` in the description stands for them.
+  template <class T, class Set>
+  void add_choice(const char* name, Choices<T> choices, const char* what, const char* description,
+                  const Set& set) {
+    add_text(name, "NAME", fmt::format(fmt::runtime(description), names_of(choices)),
+             [=](const std::string& text) {
+               const Result<T> chosen = choose(choices, what, text);
+               if (!chosen) refuse(name, chosen.error().message);
+               set(*chosen);
+             });
+  }
+
+  template <class T>
+  void add_count(const char* name, const char* value, T& count, T least, T most,
+                 const char* description) {
+    add_text(name, value, description, [=, &count](const std::string& text) {
+      const double number = parse_number(name, text);
+      if (number != std::floor(number) || number < double(least) || number > double(most)) {
+        refuse(name, fmt::format("wants a whole number, {} to {}, not {}", least, most, text));
+      }
+      count = T(number);
+    });
+  }
+
+ private:
+  CLI::App& app_;
+  const char* heading_;
+};
+
+}  // namespace
+
+void set_help(CLI::App& app, const CommandHelp& help) {
+  app.name(help.name);
+  app.description(help.description);
+  app.footer(help.footer);
+  app.formatter(std::make_shared<HelpFormatter>(std::string(help.name) + " " + help.usage));
+  app.set_help_flag("-h,--help", "say this and stop")->group("Other");
+}
+
+std::optional<int> parse(CLI::App& app, Arguments arguments) {
+  // CLI11 takes them last first.
+  std::vector<std::string> words(arguments.rbegin(), arguments.rend());
+  try {
+    app.parse(std::move(words));
+    return std::nullopt;
+  } catch (const CLI::CallForHelp&) {
+    return print(app.help());
+  } catch (const CLI::CallForVersion& version) {
+    return print(std::string(version.what()) + "\n");
+  } catch (const CLI::ParseError& mistake) {
+    return report({ErrorKind::kUsage,
+                   fmt::format("{}\nTry '{} --help'.", mistake.what(), app.get_name())});
+  }
+}
+
+void add_loading_options(CLI::App& app, Loading& loading) {
+  OptionGroup group(app, "Reading");
+  group.add_choice("--curves", curves_choices(), "kind of curves",
+                   "{}; auto: facets where $fn asks for them",
+                   [&](Curves curves) { loading.options.curves = curves; });
+  group.add_flag("--strict", loading.strict, "fail if anything in FILE is not supported");
+  group.add_flag("-q,--quiet", loading.quiet, "say nothing but errors");
+}
+
+Result<Read> load(const std::string& file, const Loading& loading) {
+  Result<Read> read = read_file(file, loading.options);
+  if (!read) return read;
+  const bool refused = loading.strict && read->unsupported;
+  std::string why;
+  for (const std::string& warning : read->warnings) {
+    if (refused && why.empty() && warning.find(" supported") != std::string::npos) {
+      why = warning;
+    } else if (!loading.quiet) {
+      say(warning);
+    }
+  }
+  if (!refused) return read;
+  constexpr std::string_view kMark = ": warning: ";
+  if (const size_t at = why.find(kMark); at != std::string::npos) {
+    why.replace(at, kMark.size(), ": error: ");
+  } else {
+    why = fmt::format("{}: error: not everything in it is supported", file);
+  }
+  return Error{ErrorKind::kInput, why + " (--strict)"};
+}
+
+void add_view_options(CLI::App& app, ViewOptions& view) {
+  OptionGroup group(app, "View, as in OpenSCAD");
+  group.add_text("--imgsize", "W,H", "pixels (512,512); each at most 65535, together 2^28",
+                 [&](const std::string& text) {
+                   const auto [width, height] = parse_numbers<2>("--imgsize", text);
+                   if (width != std::floor(width) || height != std::floor(height)) {
+                     refuse("--imgsize", fmt::format("wants whole numbers, not {}", text));
+                   }
+                   // Any number that a double holds is not one that an integer holds.
+                   constexpr double kTooMuch = 1e9;
+                   const Status possible =
+                       check_picture_size(int64_t(std::clamp(width, -kTooMuch, kTooMuch)),
+                                          int64_t(std::clamp(height, -kTooMuch, kTooMuch)));
+                   if (!possible) refuse("--imgsize", possible.error().message);
+                   view.width = int(width);
+                   view.height = int(height);
+                 });
+  group.add_text("--camera", "NUMBERS",
+                 "tx,ty,tz,rx,ry,rz,d: target, degrees, distance; or\n"
+                 "ex,ey,ez,cx,cy,cz: eye, and the point it looks at",
+                 [&](const std::string& text) {
+                   Result<ViewOptions> parsed = parse_camera(text, view);
+                   if (!parsed) refuse("--camera", parsed.error().message);
+                   view = *std::move(parsed);
+                 });
+  group.add_flag("--viewall", view.view_all, "choose the distance so that all is seen");
+  group.add_flag("--autocenter", view.auto_center, "with --viewall: look at the middle");
+  group.add_choice("--projection", projection_choices(), "projection", "{}",
+                   [&](bool orthographic) { view.orthographic = orthographic; });
+  group.add_text("--fov", "DEGREES", "vertical field of view (22.5)",
+                 [&](const std::string& text) {
+                   const double degrees = parse_number("--fov", text);
+                   if (!(degrees > 0 && degrees < 180)) {
+                     refuse("--fov", fmt::format("wants an angle between 0 and 180, not {}", text));
+                   }
+                   view.fov_degrees = degrees;
+                 });
+}
+
+void add_color_options(CLI::App& app, ShadeSettings& shading) {
+  OptionGroup group(app, "Look");
+  group.add_text("--colorscheme", "NAME", "OpenSCAD's colours of that name, in any style",
+                 [&](const std::string& name) {
+                   shading.scheme = find_color_scheme(name);
+                   if (shading.scheme != nullptr) return;
+                   refuse("--colorscheme", fmt::format("unknown colour scheme '{}'; there are: {}",
+                                                       name, color_scheme_names()));
+                 });
+  group.add_text("--light", "X,Y,Z", "style blinn: where the light stands (the eye)",
+                 [&](const std::string& text) {
+                   const auto [x, y, z] = parse_numbers<3>("--light", text);
+                   shading.light = Vec3{x, y, z};
+                 });
+}
+
+void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffect& without_effect) {
+  OptionGroup group(app, "Machine");
+  group.add_text("--backend", "NAME",
+                 fmt::format("{}; auto: the fastest that works here", names_of(backend_choices())),
+                 [&](const std::string& name) {
+                   const std::string lower = CLI::detail::to_lower(name);
+                   if (lower == "manifold" || lower == "cgal") {
+                     without_effect.missed.push_back("--backend " + name);
+                     return;
+                   }
+                   const Result<Backend> chosen = choose(backend_choices(), "backend", name);
+                   if (!chosen) refuse("--backend", chosen.error().message);
+                   settings.backend = *chosen;
+                 });
+  group.add_count("--threads", "N", settings.threads, 0, kMostThreads,
+                  "0 (all) to 1024; the picture is the same");
+}
+
+void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments) {
+  constexpr uint32_t kMostLeafSize = 1000;
+  OptionGroup group(app, "Subdivision");
+  group.add_count("--leaf-size", "K", arguments.leaf_size, 1u, kMostLeafSize,
+                  "half-spaces a leaf (4), 1 to 1000");
+  group.add_choice("--split", split_choices(), "split rule", "which axis is cut: {}",
+                   [&](SplitRule rule) { arguments.split = rule; });
+  group.add_text("--pixel-threshold", "PIXELS", "split no cell whose edges all look shorter (0)",
+                 [&](const std::string& text) {
+                   const double pixels = parse_number("--pixel-threshold", text);
+                   if (pixels < 0) {
+                     refuse("--pixel-threshold", fmt::format("must not be negative: {}", text));
+                   }
+                   arguments.pixel_threshold = pixels;
+                 });
+  group.add_choice("--small-cells", small_cells_choices(), "fate of small cells",
+                   "{} those that are split no more",
+                   [&](bool ignore) { arguments.ignore_small = ignore; });
+  group.add_flag("--paper", arguments.paper,
+                 "the paper's rules: --split xyz, two primitives a leaf\n"
+                 "(--leaf-size 2) or a union of any number,\n"
+                 "--pixel-threshold 1, --small-cells ignore");
+}
+
+void apply(const SubdivisionArguments& arguments, RendererSettings& settings) {
+  SubdivideSettings& s = settings.subdivide;
+  if (arguments.paper) {
+    s.leaf_size = 2;
+    s.leaf = LeafRule::kPrimitives;
+    s.split = SplitRule::kXyz;
+    s.ignore_small = true;
+    settings.pixel_threshold = 1;
+  }
+  if (arguments.leaf_size != 0) s.leaf_size = arguments.leaf_size;
+  s.split = arguments.split.value_or(s.split);
+  s.ignore_small = arguments.ignore_small.value_or(s.ignore_small);
+  settings.pixel_threshold = arguments.pixel_threshold.value_or(settings.pixel_threshold);
+}
+
+void add_openscad_options(CLI::App& app, WithoutEffect& without_effect) {
+  struct Ignored {
+    const char* names;
+    const char* value;
+    bool is_missed;  ///< with it, OpenSCAD's picture or outputs would be others
+  };
+  constexpr Ignored kIgnored[] = {{"-D", "X=VALUE", true},
+                                  {"-p", "FILE", true},
+                                  {"-P", "NAME", true},
+                                  {"-d", "FILE", true},
+                                  {"-m", "COMMAND", true},
+                                  {"--view", "NAMES", true},
+                                  {"--animate", "N", true},
+                                  {"--animate_sharding", "I/K", true},
+                                  {"--summary", "NAMES", true},
+                                  {"--summary-file", "FILE", true},
+                                  {"--csglimit", "N", false},
+                                  {"--enable", "NAME", false},
+                                  {"--debug", "NAME", false},
+                                  {"--check-parameters", "BOOL", false},
+                                  {"--check-parameter-ranges", "BOOL", false}};
+  constexpr const char* kHeading = "OpenSCAD's, taken without effect";
+  for (const Ignored& ignored : kIgnored) {
+    app.add_option_function<std::vector<std::string>>(
+           ignored.names,
+           [&without_effect, ignored](const std::vector<std::string>&) {
+             if (ignored.is_missed) without_effect.missed.emplace_back(ignored.names);
+           },
+           "")
+        ->allow_extra_args(false)
+        ->type_name(ignored.value)
+        ->group(kHeading);
+  }
+  app.add_flag_callback(
+         "--hardwarnings", [&] { without_effect.missed.emplace_back("--hardwarnings"); },
+         "(here: --strict)")
+      ->group(kHeading);
+  // A value comes only after `=`: the next word is FILE.
+  app.add_flag("--render,--preview", without_effect.values, "")->group(kHeading);
+}
+
+void say_without_effect(const WithoutEffect& without_effect) {
+  if (without_effect.missed.empty()) return;
+  say(fmt::format("whittle: note: without effect here: {}",
+                  fmt::join(without_effect.missed, ", ")));
+}
+
+}  // namespace whittle

@@ -1,0 +1,71 @@
+// The options that commands share, and the way all of them read their command line.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "image/shade.h"
+#include "io/read.h"
+#include "trace/view.h"
+#include "whittle/renderer.h"
+
+namespace CLI {
+class App;
+}
+
+namespace whittle {
+
+/// A command's name and what its --help says besides the options.
+struct CommandHelp {
+  const char* name;         ///< as in "whittle info"
+  const char* description;  ///< first of all
+  const char* usage;        ///< after the name
+  const char* footer;       ///< examples and exit codes
+};
+void set_help(CLI::App& app, const CommandHelp& help);
+
+/// Reads the command line. If that is the end of it (--help, or a mistake, which is then said), the
+/// exit code.
+std::optional<int> parse(CLI::App& app, Arguments arguments);
+
+struct Loading {
+  ReadOptions options;
+  bool strict = false;
+  bool quiet = false;
+};
+void add_loading_options(CLI::App& app, Loading& loading);
+/// Reads a file and says its warnings; with `strict`, what is not supported is an error.
+Result<Read> load(const std::string& file, const Loading& loading);
+
+/// --imgsize, --camera and what belongs to them.
+void add_view_options(CLI::App& app, ViewOptions& view);
+
+/// --colorscheme and --light.
+void add_color_options(CLI::App& app, ShadeSettings& shading);
+
+/// Options of OpenSCAD's that are taken without effect.
+struct WithoutEffect {
+  std::vector<std::string> missed;  ///< those given that a user may wonder about
+  std::vector<std::string> values;  ///< of those that nobody misses
+};
+void add_openscad_options(CLI::App& app, WithoutEffect& without_effect);
+/// Says which were given, if any.
+void say_without_effect(const WithoutEffect& without_effect);
+
+/// --backend and --threads. OpenSCAD's own backends stand for `auto`, without effect.
+void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffect& without_effect);
+
+struct SubdivisionArguments {
+  bool paper = false;
+  uint32_t leaf_size = 0;  ///< 0: as the rules have it
+  std::optional<SplitRule> split;
+  std::optional<double> pixel_threshold;
+  std::optional<bool> ignore_small;
+};
+void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments);
+/// The paper's rules if asked for, and then what was asked for one by one.
+void apply(const SubdivisionArguments& arguments, RendererSettings& settings);
+
+}  // namespace whittle

@@ -1,0 +1,27 @@
+// A line that tells a person at a terminal that work goes on.
+#pragma once
+
+#include <memory>
+
+#include "trace/tracer.h"
+
+namespace whittle {
+
+/// Shows the stage, and the share of it that is done, on standard error. Nothing is shown if that is
+/// no terminal, if `wanted` is false, or in the first second. The line goes when the object does.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool wanted);
+  ~ProgressLine();
+
+  /// Names what is done from now on; the text must live forever.
+  void stage(const char* name);
+  /// To be told the share of the present stage; must not outlive this object.
+  Progress share();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;  ///< null: shows nothing
+};
+
+}  // namespace whittle

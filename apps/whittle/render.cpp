@@ -1,0 +1,199 @@
+// whittle FILE -o OUT: makes pictures of a model.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command_line.h"
+#include "commands.h"
+#include "console.h"
+#include "model/instances.h"
+#include "progress.h"
+#include "statistics.h"
+#include "whittle/output.h"
+
+namespace whittle {
+namespace {
+
+constexpr CommandHelp kHelp = {
+    "whittle",
+    "Exact pictures of Constructive Solid Geometry, from OpenSCAD files.",
+    "FILE -o OUT [options]      makes a picture (the default command)\n"
+    "       whittle info FILE                  says what is in a file\n"
+    "       whittle compare A.exr B.exr        compares the facts of two pictures\n"
+    "       whittle bench FILE...              measures every stage\n"
+    "       whittle model NAME [N] [-o OUT]    writes a model made to measure\n\n"
+    "FILE is .csg, or .scad if openscad is installed; '-' is standard input. Each\n"
+    "command has its own --help. A file that is called like a command is ./info.",
+    "Examples:\n"
+    "  whittle part.csg -o part.png\n"
+    "  whittle part.csg -o part.png -o facts.exr --imgsize 1920,1080\n"
+    "  whittle part.csg -o top.png --camera 0,0,0,0,0,0,200 --projection ortho\n"
+    "  openscad -o - --export-format csg part.scad | whittle - -o part.png\n\n"
+    "Exit codes: 0 done, 1 bad input, 2 bad usage, 3 refused by the machine (device,\n"
+    "memory, disk)."};
+
+struct Output {
+  std::string path;
+  FileFormat format;
+};
+
+struct RenderArguments {
+  std::string file;
+  std::vector<std::string> outputs;
+  std::optional<FileFormat> export_format;
+  Loading loading;
+  ViewOptions view;
+  ShadeSettings shading;
+  Pass pass = Pass::kColor;
+  bool no_background = false;
+  int antialias = 0;  ///< 0: what suits the style
+  RendererSettings renderer;
+  SubdivisionArguments subdivision;
+  WithoutEffect without_effect;
+  bool wants_statistics = false;
+};
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+void add_options(CLI::App& app, RenderArguments& a) {
+  app.add_option("FILE", a.file)->required();
+  app.add_option("-o", a.outputs, "a .png or .exr; may be given again; '-' is standard output")
+      ->allow_extra_args(false)
+      ->type_name("OUT")
+      ->group("Output");
+  add_choice_option(app, "Output", "--export-format", format_choices(), "format",
+                    "{}, whatever OUT ends in", [&](FileFormat f) { a.export_format = f; });
+  add_choice_option(app, "Output", "--pass", pass_choices(), "pass", "what a PNG shows: {}",
+                    [&](Pass pass) { a.pass = pass; });
+  add_view_options(app, a.view);
+  add_choice_option(app, "Look", "--style", style_choices(), "style", "{}",
+                    [&](Style style) { a.shading.style = style; });
+  add_color_options(app, a.shading);
+  add_count_option(app, "Look", "--aa", "N", a.antialias, 1, kMostAntialias,
+                   "N x N rays a pixel at edges, 1 to 16 (4; openscad 1)");
+  app.add_flag("--no-background", a.no_background, "what is not hit is transparent")
+      ->group("Look");
+  add_loading_options(app, a.loading);
+  add_machine_options(app, a.renderer, a.without_effect);
+  app.add_flag("--stats", a.wants_statistics, "say what was done and what it cost")
+      ->group("Machine");
+  add_subdivision_options(app, a.subdivision);
+  add_openscad_options(app, a.without_effect);
+  app.set_version_flag("-v,--version", "whittle " WHITTLE_VERSION, "say the version and stop")
+      ->group("Other");
+}
+
+Result<std::vector<Output>> choose_outputs(const RenderArguments& a) {
+  if (a.outputs.empty()) {
+    return Error{ErrorKind::kUsage,
+                 "there is no window yet; give -o FILE.png or -o FILE.exr to make a picture"};
+  }
+  std::vector<Output> outputs;
+  for (const std::string& path : a.outputs) {
+    Output output{path, FileFormat::kPng};
+    if (a.export_format) {
+      output.format = *a.export_format;
+    } else if (path == "-") {
+      return Error{ErrorKind::kUsage,
+                   fmt::format("-o - (standard output) needs --export-format {}",
+                               names_of(format_choices(), " or "))};
+    } else {
+      const Result<FileFormat> format = format_of(path);
+      if (!format) return format.error();
+      output.format = *format;
+    }
+    outputs.push_back(std::move(output));
+  }
+  return outputs;
+}
+
+Status write_all(const RenderArguments& a, const std::vector<Output>& outputs, const Frame& frame,
+                 const Picture& picture) {
+  for (const Output& output : outputs) {
+    const bool shows_pass = output.format == FileFormat::kPng && a.pass != Pass::kColor;
+    const Result<std::string> bytes =
+        encode(output.format, frame,
+               shows_pass ? pass_picture(frame, a.pass, !a.no_background) : picture,
+               a.no_background, output.path);
+    if (!bytes) return bytes.error();
+    if (const Status written = write_output(output.path, *bytes); !written) return written;
+  }
+  return Done{};
+}
+
+/// The number of rays a side that the user wants, or that suits the style.
+int antialias(const RenderArguments& a) {
+  return a.antialias > 0 ? a.antialias : default_antialias(a.shading.style);
+}
+
+Status render(RenderArguments& a) {
+  const auto start = Clock::now();
+  const Result<std::vector<Output>> outputs = choose_outputs(a);
+  if (!outputs) return outputs.error();
+  for (const Output& output : *outputs) {
+    if (const Status possible = check_writable(output.path); !possible) return possible;
+  }
+  if (!a.loading.quiet) say_without_effect(a.without_effect);
+
+  ProgressLine progress(!a.loading.quiet);
+  const Result<Read> read = load(a.file, a.loading);
+  if (!read) return read.error();
+  RunTimes times{.read = milliseconds_since(start)};
+  const Model& model = read->model;
+  if (bounds(model).box.is_empty() && !a.loading.quiet) {
+    say(fmt::format("{}: warning: the solid is empty", model.file));
+  }
+
+  progress.stage("lowering");
+  const Camera camera = camera_for(model, a.view);
+  apply(a.subdivision, a.renderer);
+  Result<Renderer> renderer = Renderer::make(model, a.renderer);
+  if (!renderer) return renderer.error();
+  progress.stage("subdividing");
+  renderer->prepare(camera);
+  progress.stage("tracing");
+  const Frame frame = renderer->trace(camera, progress.share());
+  Picture picture;
+  const bool wants_color = a.pass == Pass::kColor ||
+                           std::ranges::any_of(*outputs, [](const Output& output) {
+                             return output.format == FileFormat::kExr;
+                           });
+  if (wants_color) {
+    progress.stage("shading");
+    a.shading.background = !a.no_background;
+    picture = renderer->shade(frame, camera, a.shading, antialias(a));
+  }
+  progress.stage("writing");
+  const auto before_writing = Clock::now();
+  if (const Status written = write_all(a, *outputs, frame, picture); !written) return written;
+  times.write = milliseconds_since(before_writing);
+  times.total = milliseconds_since(start);
+  progress.end();
+  if (a.wants_statistics) {
+    say(statistics(model, *renderer, a.renderer.backend == Backend::kAuto, times));
+  }
+  return Done{};
+}
+
+}  // namespace
+
+int render_command(Arguments arguments) {
+  CLI::App app;
+  RenderArguments a;
+  set_help(app, kHelp);
+  add_options(app, a);
+  if (const std::optional<int> code = parse(app, arguments)) return *code;
+  const Status done = render(a);
+  return done ? kExitDone : report(done.error());
+}
+
+}  // namespace whittle

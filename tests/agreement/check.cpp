@@ -1,0 +1,88 @@
+// Holds the cpu backend to the oracle on given files, or on any number of random trees:
+//
+//   agreement_check FILE...                        three views each, several leaf sizes
+//   agreement_check --seeds COUNT [--first SEED] [--coincident]
+//
+// Prints every model that differs with its first differing pixel; exit code 1 if any does.
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "agreement/cpu_subject.h"
+#include "io/read.h"
+#include "support/random_tree.h"
+#include "support/read_text.h"
+#include "trace/oracle/oracle.h"
+
+namespace whittle {
+namespace {
+
+AgreementReport check(const Model& model, std::span<const uint32_t> leaf_sizes, int width,
+                      int height) {
+  const auto oracle = make_oracle_tracer(model);
+  AgreementReport sum;
+  for (const uint32_t k : leaf_sizes) {
+    SubdivideSettings settings;
+    settings.leaf_size = k;
+    CpuSubject cpu(model, settings);
+    for (const Camera& camera : cameras_for(model, width, height))
+      add(sum, check_agreement(model, *cpu.tracer, *oracle, camera));
+    if (cpu.tracer->stats().disagreements > 0 && sum.first_difference.empty())
+      sum.first_difference = "neighbouring cells disagree";
+  }
+  return sum;
+}
+
+bool report(const std::string& name, const AgreementReport& r, bool always) {
+  const bool bad = r.unexplained > 0 || r.ambiguous_unmatched > 0;
+  if (bad || always)
+    std::printf("%s: %d pixels, %d hits, %d ambiguous, %d unexplained, %d unmatched\n",
+                name.c_str(), r.pixels, r.hits, r.ambiguous, r.unexplained, r.ambiguous_unmatched);
+  if (bad) std::printf("  %s\n", r.first_difference.c_str());
+  return !bad;
+}
+
+int run(int argc, char** argv) {
+  bool good = true, coincident = false;
+  uint64_t seeds = 0, first = 1;
+  std::vector<std::string> files;
+  for (int i = 1; i < argc; ++i) {
+    if (!std::strcmp(argv[i], "--seeds") && i + 1 < argc)
+      seeds = std::strtoull(argv[++i], nullptr, 10);
+    else if (!std::strcmp(argv[i], "--first") && i + 1 < argc)
+      first = std::strtoull(argv[++i], nullptr, 10);
+    else if (!std::strcmp(argv[i], "--coincident"))
+      coincident = true;
+    else
+      files.push_back(argv[i]);
+  }
+  for (const std::string& file : files) {
+    const Result<Read> read = read_file(file);
+    if (!read) {
+      std::printf("%s\n", read.error().message.c_str());
+      good = false;
+      continue;
+    }
+    static constexpr uint32_t kLeafSizes[] = {2, 4, 6, 16};
+    good &= report(file, check(read->model, kLeafSizes, 96, 72), true);
+  }
+  AgreementReport sum;
+  for (uint64_t seed = first; seed < first + seeds; ++seed) {
+    const uint32_t k[] = {uint32_t(2 + seed % 8)};
+    const AgreementReport r = check(model_of(random_tree(seed, {.primitives = 4 + int(seed % 24),
+                                                                .coincident = coincident,
+                                                                .halfspaces = seed % 5 == 0})),
+                                    k, 16, 16);
+    good &= report("seed " + std::to_string(seed), r, false);
+    add(sum, r);
+  }
+  if (seeds > 0) report("all seeds", sum, true);
+  return good ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace whittle
+
+int main(int argc, char** argv) { return whittle::run(argc, argv); }

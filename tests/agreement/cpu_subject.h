@@ -1,0 +1,39 @@
+// The cpu backend with everything it needs, for comparison with the oracle.
+#pragma once
+
+#include <memory>
+
+#include "base/result.h"
+#include "lower/lower.h"
+#include "subdivide/subdivide.h"
+#include "support/agreement.h"
+#include "trace/cpu/cpu.h"
+
+namespace whittle {
+
+struct CpuSubject {
+  Scene scene;
+  CellTree cells;
+  std::unique_ptr<CpuTracer> tracer;
+
+  CpuSubject(const Model& model, const SubdivideSettings& settings) {
+    Result<Scene> lowered = lower(model);
+    WHITTLE_CHECK(lowered);
+    scene = *std::move(lowered);
+    cells = subdivide(scene, settings);
+    tracer = make_cpu_tracer(scene, cells, settings.threads);
+  }
+  CpuSubject(const CpuSubject&) = delete;
+};
+
+/// Adds up reports; keeps the first difference.
+inline void add(AgreementReport& sum, const AgreementReport& one) {
+  sum.pixels += one.pixels;
+  sum.hits += one.hits;
+  sum.ambiguous += one.ambiguous;
+  sum.unexplained += one.unexplained;
+  sum.ambiguous_unmatched += one.ambiguous_unmatched;
+  if (sum.first_difference.empty()) sum.first_difference = one.first_difference;
+}
+
+}  // namespace whittle
