@@ -4,14 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <string_view>
 #include <utility>
 
 #include "console.h"
+#include "option_group.h"
+#include "progress.h"
 
 namespace whittle {
 namespace {
@@ -33,86 +33,6 @@ class HelpFormatter : public CLI::Formatter {
 
  private:
   std::string usage_;
-};
-
-[[noreturn]] void refuse(const char* option, const std::string& why) {
-  throw CLI::ValidationError(option, why);
-}
-
-/// `count` finite numbers separated by commas.
-template <size_t count>
-std::array<double, count> parse_numbers(const char* option, std::string_view text) {
-  std::array<double, count> numbers{};
-  size_t found = 0;
-  for (std::string_view rest = text;; ++found) {
-    const size_t comma = rest.find(',');
-    std::string_view word = rest.substr(0, comma);
-    while (word.starts_with(' ')) word.remove_prefix(1);
-    while (word.ends_with(' ')) word.remove_suffix(1);
-    double value = 0;
-    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (code != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
-      refuse(option, fmt::format("'{}' is not a number (in '{}')", word, text));
-    }
-    if (found < count) numbers[found] = value;
-    if (comma == std::string_view::npos) break;
-    rest.remove_prefix(comma + 1);
-  }
-  if (found + 1 != count) {
-    refuse(option, fmt::format("wants {} numbers, not the {} of '{}'", count, found + 1, text));
-  }
-  return numbers;
-}
-
-double parse_number(const char* option, std::string_view text) {
-  return parse_numbers<1>(option, text)[0];
-}
-
-/// Adds options under one heading of the help.
-class OptionGroup {
- public:
-  OptionGroup(CLI::App& app, const char* heading) : app_(app), heading_(heading) {}
-
-  void add_flag(const char* names, bool& given, const char* description) {
-    app_.add_flag(names, given, description)->group(heading_);
-  }
-
-  /// An option whose value `set` reads, and refuses if it must.
-  template <class Set>
-  void add_text(const char* name, const char* value, const std::string& description,
-                const Set& set) {
-    app_.add_option_function<std::string>(name, set, description)
-        ->type_name(value)
-        ->group(heading_);
-  }
-
-  /// An option whose value is one of some names; `{}` in the description stands for them.
-  template <class T, class Set>
-  void add_choice(const char* name, Choices<T> choices, const char* what, const char* description,
-                  const Set& set) {
-    add_text(name, "NAME", fmt::format(fmt::runtime(description), names_of(choices)),
-             [=](const std::string& text) {
-               const Result<T> chosen = choose(choices, what, text);
-               if (!chosen) refuse(name, chosen.error().message);
-               set(*chosen);
-             });
-  }
-
-  template <class T>
-  void add_count(const char* name, const char* value, T& count, T least, T most,
-                 const char* description) {
-    add_text(name, value, description, [=, &count](const std::string& text) {
-      const double number = parse_number(name, text);
-      if (number != std::floor(number) || number < double(least) || number > double(most)) {
-        refuse(name, fmt::format("wants a whole number, {} to {}, not {}", least, most, text));
-      }
-      count = T(number);
-    });
-  }
-
- private:
-  CLI::App& app_;
-  const char* heading_;
 };
 
 }  // namespace
@@ -151,7 +71,11 @@ void add_loading_options(CLI::App& app, Loading& loading) {
 }
 
 Result<Read> load(const std::string& file, const Loading& loading) {
-  Result<Read> read = read_file(file, loading.options);
+  const auto read_with_progress = [&] {
+    const ProgressLine progress(!loading.quiet, "reading");
+    return read_file(file, loading.options);
+  };
+  Result<Read> read = read_with_progress();
   if (!read) return read;
   const bool refused = loading.strict && read->unsupported;
   std::string why;
@@ -176,7 +100,8 @@ void add_view_options(CLI::App& app, ViewOptions& view) {
   OptionGroup group(app, "View, as in OpenSCAD");
   group.add_text("--imgsize", "W,H", "pixels (512,512); each at most 65535, together 2^28",
                  [&](const std::string& text) {
-                   const auto [width, height] = parse_numbers<2>("--imgsize", text);
+                   const std::vector<double> size = parse_numbers("--imgsize", text, 2);
+                   const double width = size[0], height = size[1];
                    if (width != std::floor(width) || height != std::floor(height)) {
                      refuse("--imgsize", fmt::format("wants whole numbers, not {}", text));
                    }
@@ -222,8 +147,8 @@ void add_color_options(CLI::App& app, ShadeSettings& shading) {
                  });
   group.add_text("--light", "X,Y,Z", "style blinn: where the light stands (the eye)",
                  [&](const std::string& text) {
-                   const auto [x, y, z] = parse_numbers<3>("--light", text);
-                   shading.light = Vec3{x, y, z};
+                   const std::vector<double> at = parse_numbers("--light", text, 3);
+                   shading.light = Vec3{at[0], at[1], at[2]};
                  });
 }
 
@@ -256,7 +181,8 @@ void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments) {
                  [&](const std::string& text) {
                    const double pixels = parse_number("--pixel-threshold", text);
                    if (pixels < 0) {
-                     refuse("--pixel-threshold", fmt::format("must not be negative: {}", text));
+                     refuse("--pixel-threshold",
+                            fmt::format("wants a number from 0 on, not {}", text));
                    }
                    arguments.pixel_threshold = pixels;
                  });

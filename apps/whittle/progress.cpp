@@ -24,7 +24,7 @@ void show(const std::string& text) {
 }  // namespace
 
 struct ProgressLine::State {
-  std::atomic<const char*> stage = "reading";
+  std::atomic<const char*> stage = nullptr;
   std::atomic<double> share = -1;  ///< negative: not known
   std::mutex mutex;
   std::condition_variable wake;
@@ -43,9 +43,10 @@ struct ProgressLine::State {
   }
 };
 
-ProgressLine::ProgressLine(bool wanted) {
+ProgressLine::ProgressLine(bool wanted, const char* stage) {
   if (!wanted || ::isatty(STDERR_FILENO) == 0) return;
   state_ = std::make_unique<State>();
+  state_->stage = stage;
   state_->thread = std::thread(&State::run, state_.get());
 }
 

@@ -11,10 +11,11 @@ namespace whittle {
 /// no terminal, if `wanted` is false, or in the first second. The line goes when the object does.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool wanted);
+  /// Names of stages must live forever.
+  ProgressLine(bool wanted, const char* stage);
   ~ProgressLine();
 
-  /// Names what is done from now on; the text must live forever.
+  /// Names what is done from now on.
   void stage(const char* name);
   /// To be told the share of the present stage; must not outlive this object.
   Progress share();

@@ -12,6 +12,7 @@
 #include "commands.h"
 #include "console.h"
 #include "model/instances.h"
+#include "option_group.h"
 #include "progress.h"
 #include "statistics.h"
 #include "whittle/output.h"
@@ -66,26 +67,25 @@ double milliseconds_since(Clock::time_point start) {
 
 void add_options(CLI::App& app, RenderArguments& a) {
   app.add_option("FILE", a.file)->required();
-  app.add_option("-o", a.outputs, "a .png or .exr; may be given again; '-' is standard output")
+  app.add_option("-o", a.outputs, "a .png or .exr, and -o again for more; '-': standard output")
       ->allow_extra_args(false)
       ->type_name("OUT")
       ->group("Output");
-  add_choice_option(app, "Output", "--export-format", format_choices(), "format",
-                    "{}, whatever OUT ends in", [&](FileFormat f) { a.export_format = f; });
-  add_choice_option(app, "Output", "--pass", pass_choices(), "pass", "what a PNG shows: {}",
+  OptionGroup output(app, "Output"), look(app, "Look"), machine(app, "Machine");
+  output.add_choice("--export-format", format_choices(), "format", "{}, whatever OUT ends in",
+                    [&](FileFormat format) { a.export_format = format; });
+  output.add_choice("--pass", pass_choices(), "pass", "what a PNG shows: {}",
                     [&](Pass pass) { a.pass = pass; });
   add_view_options(app, a.view);
-  add_choice_option(app, "Look", "--style", style_choices(), "style", "{}",
-                    [&](Style style) { a.shading.style = style; });
+  look.add_choice("--style", style_choices(), "style", "{}",
+                  [&](Style style) { a.shading.style = style; });
   add_color_options(app, a.shading);
-  add_count_option(app, "Look", "--aa", "N", a.antialias, 1, kMostAntialias,
-                   "N x N rays a pixel at edges, 1 to 16 (4; openscad 1)");
-  app.add_flag("--no-background", a.no_background, "what is not hit is transparent")
-      ->group("Look");
+  look.add_count("--aa", "N", a.antialias, 1, kMostAntialias,
+                 "N x N rays a pixel at edges, 1 to 16 (4; openscad 1)");
+  look.add_flag("--no-background", a.no_background, "what is not hit is transparent");
   add_loading_options(app, a.loading);
   add_machine_options(app, a.renderer, a.without_effect);
-  app.add_flag("--stats", a.wants_statistics, "say what was done and what it cost")
-      ->group("Machine");
+  machine.add_flag("--stats", a.wants_statistics, "say what was done and what it cost");
   add_subdivision_options(app, a.subdivision);
   add_openscad_options(app, a.without_effect);
   app.set_version_flag("-v,--version", "whittle " WHITTLE_VERSION, "say the version and stop")
@@ -125,14 +125,26 @@ Status write_all(const RenderArguments& a, const std::vector<Output>& outputs, c
                shows_pass ? pass_picture(frame, a.pass, !a.no_background) : picture,
                a.no_background, output.path);
     if (!bytes) return bytes.error();
-    if (const Status written = write_output(output.path, *bytes); !written) return written;
+    if (Status written = write_output(output.path, *bytes); !written) return written;
   }
   return Done{};
 }
 
-/// The number of rays a side that the user wants, or that suits the style.
-int antialias(const RenderArguments& a) {
-  return a.antialias > 0 ? a.antialias : default_antialias(a.shading.style);
+/// Traces and shades; pictures that no output shows are not made.
+void draw(const RenderArguments& a, const std::vector<Output>& outputs, const Camera& camera,
+          Renderer& renderer, Frame& frame, Picture& picture) {
+  ProgressLine progress(!a.loading.quiet, "subdividing");
+  renderer.prepare(camera);
+  progress.stage("tracing");
+  frame = renderer.trace(camera, progress.share());
+  const bool shows_color = a.pass == Pass::kColor ||
+                           std::ranges::any_of(outputs, [](const Output& output) {
+                             return output.format == FileFormat::kExr;
+                           });
+  if (!shows_color) return;
+  progress.stage("shading");
+  const int rays = a.antialias > 0 ? a.antialias : default_antialias(a.shading.style);
+  picture = renderer.shade(frame, camera, a.shading, rays);
 }
 
 Status render(RenderArguments& a) {
@@ -140,44 +152,31 @@ Status render(RenderArguments& a) {
   const Result<std::vector<Output>> outputs = choose_outputs(a);
   if (!outputs) return outputs.error();
   for (const Output& output : *outputs) {
-    if (const Status possible = check_writable(output.path); !possible) return possible;
+    if (Status possible = check_writable(output.path); !possible) return possible;
   }
   if (!a.loading.quiet) say_without_effect(a.without_effect);
 
-  ProgressLine progress(!a.loading.quiet);
   const Result<Read> read = load(a.file, a.loading);
   if (!read) return read.error();
-  RunTimes times{.read = milliseconds_since(start)};
   const Model& model = read->model;
   if (bounds(model).box.is_empty() && !a.loading.quiet) {
     say(fmt::format("{}: warning: the solid is empty", model.file));
   }
+  RunTimes times{.read = milliseconds_since(start)};
 
-  progress.stage("lowering");
-  const Camera camera = camera_for(model, a.view);
   apply(a.subdivision, a.renderer);
+  a.shading.background = !a.no_background;
+  const Camera camera = camera_for(model, a.view);
   Result<Renderer> renderer = Renderer::make(model, a.renderer);
   if (!renderer) return renderer.error();
-  progress.stage("subdividing");
-  renderer->prepare(camera);
-  progress.stage("tracing");
-  const Frame frame = renderer->trace(camera, progress.share());
+  Frame frame;
   Picture picture;
-  const bool wants_color = a.pass == Pass::kColor ||
-                           std::ranges::any_of(*outputs, [](const Output& output) {
-                             return output.format == FileFormat::kExr;
-                           });
-  if (wants_color) {
-    progress.stage("shading");
-    a.shading.background = !a.no_background;
-    picture = renderer->shade(frame, camera, a.shading, antialias(a));
-  }
-  progress.stage("writing");
+  draw(a, *outputs, camera, *renderer, frame, picture);
+
   const auto before_writing = Clock::now();
-  if (const Status written = write_all(a, *outputs, frame, picture); !written) return written;
+  if (Status written = write_all(a, *outputs, frame, picture); !written) return written;
   times.write = milliseconds_since(before_writing);
   times.total = milliseconds_since(start);
-  progress.end();
   if (a.wants_statistics) {
     say(statistics(model, *renderer, a.renderer.backend == Backend::kAuto, times));
   }

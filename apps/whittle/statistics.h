@@ -8,10 +8,12 @@
 
 namespace whittle {
 
-/// What was done and what it cost, as lines for people. Times are in milliseconds.
+/// Milliseconds of what is not a stage of the renderer, and of all together.
 struct RunTimes {
-  double read = 0, shade = 0, write = 0, total = 0;
+  double read = 0, write = 0, total = 0;
 };
+
+/// What was done and what it cost, as lines for people. `is_auto`: nobody asked for the backend.
 std::string statistics(const Model& model, const Renderer& renderer, bool is_auto,
                        const RunTimes& times);
 

@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "image/srgb.h"
+#include "image/temporary_file_for_test.h"
 
 namespace whittle {
 namespace {
@@ -55,7 +56,8 @@ void write_all(const std::string& path, const std::string& bytes) {
 RC_GTEST_PROP(Exr, FactsComeBackBitByBit, ()) {
   const Frame f = random_frame(*rc::gen::inRange(1, 30), *rc::gen::inRange(1, 30),
                                *rc::gen::arbitrary<uint32_t>());
-  const std::string path = temporary("facts.exr");
+  const TemporaryFile file_name(".exr");
+  const std::string& path = file_name.path();
   RC_ASSERT(bool(write_exr(path, f, Picture(f.width, f.height))));
   const Result<Frame> read = read_exr(path);
   RC_ASSERT(bool(read));
@@ -63,7 +65,8 @@ RC_GTEST_PROP(Exr, FactsComeBackBitByBit, ()) {
 }
 
 TEST(Exr, BackgroundIsInfinitelyFar) {
-  const std::string path = temporary("background.exr");
+  const TemporaryFile file_name(".exr");
+  const std::string& path = file_name.path();
   ASSERT_TRUE(write_exr(path, Frame(2, 1), Picture(2, 1)));
   const Result<Frame> read = read_exr(path);
   ASSERT_TRUE(read);
@@ -75,7 +78,8 @@ TEST(Exr, ColorsAreLinearPremultipliedHalfs) {
   Picture picture(2, 1);
   const uint8_t bytes[] = {255, 128, 0, 255, 255, 128, 0, 51};
   std::copy(std::begin(bytes), std::end(bytes), picture.rgba.begin());
-  const std::string path = temporary("colors.exr");
+  const TemporaryFile file_name(".exr");
+  const std::string& path = file_name.path();
   ASSERT_TRUE(write_exr(path, Frame(2, 1), picture));
 
   Imf::InputFile file(path.c_str());
@@ -127,7 +131,8 @@ void expect_error(const std::string& path, const std::string& part) {
 }
 
 TEST(Exr, WrongFilesAreErrorsThatSayWhy) {
-  const std::string path = temporary("wrong.exr");
+  const TemporaryFile file_name(".exr");
+  const std::string& path = file_name.path();
   expect_error("/no/such/file.exr", "No such file");
   write_all(path, "not a picture at all, but long enough to have a header");
   expect_error(path, "not an OpenEXR file");
@@ -145,7 +150,8 @@ TEST(Exr, WrongFilesAreErrorsThatSayWhy) {
 }
 
 TEST(Exr, AWindowAwayFromTheOriginIsRead) {
-  const std::string path = temporary("window.exr");
+  const TemporaryFile file_name(".exr");
+  const std::string& path = file_name.path();
   write_channels(path, {"Z", "N.X", "N.Y", "N.Z", "id"}, Imf::FLOAT, Imf::UINT, -70, 40);
   const Result<Frame> read = read_exr(path);
   ASSERT_TRUE(read) << read.error().message;
@@ -162,7 +168,8 @@ TEST(Exr, WritingToNowhereIsAnError) {
 }
 
 TEST(Exr, TruncatedFilesAreErrors) {
-  const std::string path = temporary("truncated.exr");
+  const TemporaryFile file_name(".exr");
+  const std::string& path = file_name.path();
   ASSERT_TRUE(write_exr(path, random_frame(20, 40, 3), Picture(20, 40)));
   const std::string whole = read_all(path);
   for (size_t length = 0; length < whole.size(); length += 1 + whole.size() / 50) {
@@ -172,7 +179,8 @@ TEST(Exr, TruncatedFilesAreErrors) {
 }
 
 RC_GTEST_PROP(Exr, DamagedFilesNeverCrash, ()) {
-  const std::string path = temporary("damaged.exr");
+  const TemporaryFile file_name(".exr");
+  const std::string& path = file_name.path();
   RC_ASSERT(bool(write_exr(path, random_frame(8, 8, 3), Picture(8, 8))));
   std::string bytes = read_all(path);
   for (int i = 0; i < 4; ++i) {

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "image/temporary_file_for_test.h"
+
 namespace whittle {
 namespace {
 
@@ -25,7 +27,8 @@ Picture random_picture(int width, int height, uint32_t seed) {
 RC_GTEST_PROP(Png, WhatIsWrittenIsReadBack, ()) {
   const Picture p = random_picture(*rc::gen::inRange(1, 40), *rc::gen::inRange(1, 40),
                                    *rc::gen::arbitrary<uint32_t>());
-  const std::string path = temporary("roundtrip.png");
+  const TemporaryFile file_name(".png");
+  const std::string& path = file_name.path();
   RC_ASSERT(bool(write_png(path, p, true)));
   const Result<Picture> read = read_png(path);
   RC_ASSERT(bool(read));
@@ -34,7 +37,8 @@ RC_GTEST_PROP(Png, WhatIsWrittenIsReadBack, ()) {
 
 TEST(Png, WithoutAlphaTheColorsStay) {
   const Picture p = random_picture(31, 17, 5);
-  const std::string path = temporary("rgb.png");
+  const TemporaryFile file_name(".png");
+  const std::string& path = file_name.path();
   ASSERT_TRUE(write_png(path, p, false));
   const Result<Picture> read = read_png(path);
   ASSERT_TRUE(read);
@@ -44,7 +48,8 @@ TEST(Png, WithoutAlphaTheColorsStay) {
 }
 
 TEST(Png, WritesToAnOpenFileAfterWhatIsThere) {
-  const std::string path = temporary("appended.png");
+  const TemporaryFile file_name(".png");
+  const std::string& path = file_name.path();
   std::FILE* file = std::fopen(path.c_str(), "wb");
   ASSERT_NE(file, nullptr);
   std::fputs("before", file);
@@ -69,7 +74,8 @@ TEST(Png, AFullDiskIsAnErrorThatNamesTheFile) {
 }
 
 TEST(Png, WhatIsNoPngIsAnError) {
-  const std::string path = temporary("broken.png");
+  const TemporaryFile file_name(".png");
+  const std::string& path = file_name.path();
   EXPECT_FALSE(read_png("/no/such/file.png"));
   std::ofstream(path) << "hello";
   EXPECT_FALSE(read_png(path));

@@ -110,7 +110,7 @@ Vec3f Shader::surface(const Hit& hit, float px, float py) const {
   return openscad(hit, base);
 }
 
-// csg-format: rgb = base * (0.2 + |n.l|), two opposite lights fixed to the camera.
+// OpenSCAD: rgb = base * (0.2 + |n.l|), two opposite lights fixed to the camera.
 Vec3f Shader::openscad(const Hit& hit, Vec3f base) const {
   return base * (0.2f + std::fabs(dot(hit.normal, headlight_)));
 }
