@@ -56,8 +56,8 @@ std::optional<int> parse(CLI::App& app, Arguments arguments) {
   } catch (const CLI::CallForVersion& version) {
     return print(std::string(version.what()) + "\n");
   } catch (const CLI::ParseError& mistake) {
-    return report({ErrorKind::kUsage,
-                   fmt::format("{}\nTry '{} --help'.", mistake.what(), app.get_name())});
+    return report(
+        {ErrorKind::kUsage, fmt::format("{}\nTry '{} --help'.", mistake.what(), app.get_name())});
   }
 }
 
@@ -70,6 +70,26 @@ void add_loading_options(CLI::App& app, Loading& loading) {
   group.add_flag("-q,--quiet", loading.quiet, "say nothing but errors");
 }
 
+Status say_warnings(const Read& read, const Loading& loading) {
+  const bool refused = loading.strict && read.unsupported;
+  std::string why;
+  for (const std::string& warning : read.warnings) {
+    if (refused && why.empty() && warning.find(" supported") != std::string::npos) {
+      why = warning;
+    } else if (!loading.quiet) {
+      say(warning);
+    }
+  }
+  if (!refused) return Done{};
+  constexpr std::string_view kMark = ": warning: ";
+  if (const size_t at = why.find(kMark); at != std::string::npos) {
+    why.replace(at, kMark.size(), ": error: ");
+  } else {
+    why = fmt::format("{}: error: not everything in it is supported", read.model.file);
+  }
+  return Error{ErrorKind::kInput, why + " (--strict)"};
+}
+
 Result<Read> load(const std::string& file, const Loading& loading) {
   const auto read_with_progress = [&] {
     const ProgressLine progress(!loading.quiet, "reading");
@@ -77,23 +97,8 @@ Result<Read> load(const std::string& file, const Loading& loading) {
   };
   Result<Read> read = read_with_progress();
   if (!read) return read;
-  const bool refused = loading.strict && read->unsupported;
-  std::string why;
-  for (const std::string& warning : read->warnings) {
-    if (refused && why.empty() && warning.find(" supported") != std::string::npos) {
-      why = warning;
-    } else if (!loading.quiet) {
-      say(warning);
-    }
-  }
-  if (!refused) return read;
-  constexpr std::string_view kMark = ": warning: ";
-  if (const size_t at = why.find(kMark); at != std::string::npos) {
-    why.replace(at, kMark.size(), ": error: ");
-  } else {
-    why = fmt::format("{}: error: not everything in it is supported", file);
-  }
-  return Error{ErrorKind::kInput, why + " (--strict)"};
+  if (Status fit = say_warnings(*read, loading); !fit) return fit.error();
+  return read;
 }
 
 void add_view_options(CLI::App& app, ViewOptions& view) {
@@ -126,14 +131,13 @@ void add_view_options(CLI::App& app, ViewOptions& view) {
   group.add_flag("--autocenter", view.auto_center, "with --viewall: look at the middle");
   group.add_choice("--projection", projection_choices(), "projection", "{}",
                    [&](bool orthographic) { view.orthographic = orthographic; });
-  group.add_text("--fov", "DEGREES", "vertical field of view (22.5)",
-                 [&](const std::string& text) {
-                   const double degrees = parse_number("--fov", text);
-                   if (!(degrees > 0 && degrees < 180)) {
-                     refuse("--fov", fmt::format("wants an angle between 0 and 180, not {}", text));
-                   }
-                   view.fov_degrees = degrees;
-                 });
+  group.add_text("--fov", "DEGREES", "vertical field of view (22.5)", [&](const std::string& text) {
+    const double degrees = parse_number("--fov", text);
+    if (!(degrees > 0 && degrees < 180)) {
+      refuse("--fov", fmt::format("wants an angle between 0 and 180, not {}", text));
+    }
+    view.fov_degrees = degrees;
+  });
 }
 
 void add_color_options(CLI::App& app, ShadeSettings& shading) {
@@ -174,7 +178,8 @@ void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments) {
   constexpr uint32_t kMostLeafSize = 1000;
   OptionGroup group(app, "Subdivision");
   group.add_count("--leaf-size", "K", arguments.leaf_size, 1u, kMostLeafSize,
-                  "half-spaces a leaf (4), 1 to 1000");
+                  fmt::format("half-spaces a leaf ({}), 1 to {}", SubdivideSettings{}.leaf_size,
+                              kMostLeafSize));
   group.add_choice("--split", split_choices(), "split rule", "which axis is cut: {}",
                    [&](SplitRule rule) { arguments.split = rule; });
   group.add_text("--pixel-threshold", "PIXELS", "split no cell whose edges all look shorter (0)",
@@ -187,7 +192,7 @@ void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments) {
                    arguments.pixel_threshold = pixels;
                  });
   group.add_choice("--small-cells", small_cells_choices(), "fate of small cells",
-                   "{} those that are split no more",
+                   "below that threshold: {}",
                    [&](bool ignore) { arguments.ignore_small = ignore; });
   group.add_flag("--paper", arguments.paper,
                  "the paper's rules: --split xyz, two primitives a leaf\n"

@@ -36,7 +36,9 @@ struct Loading {
   bool quiet = false;
 };
 void add_loading_options(CLI::App& app, Loading& loading);
-/// Reads a file and says its warnings; with `strict`, what is not supported is an error.
+/// Says the warnings; with `strict`, what is not supported is an error instead.
+Status say_warnings(const Read& read, const Loading& loading);
+/// Reads a file, shows the progress, and says its warnings.
 Result<Read> load(const std::string& file, const Loading& loading);
 
 /// --imgsize, --camera and what belongs to them.

@@ -49,7 +49,7 @@ void OptionGroup::add_text(const char* name, const char* value, const std::strin
 }
 
 void OptionGroup::add_number(const char* name, const char* value, double& number, double least,
-                             double most, const char* description) {
+                             double most, const std::string& description) {
   add_text(name, value, description, [=, &number](const std::string& text) {
     number = parse_number(name, text);
     if (number < least || number > most) {

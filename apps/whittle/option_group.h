@@ -36,12 +36,12 @@ class OptionGroup {
 
   /// A number in an interval.
   void add_number(const char* name, const char* value, double& number, double least, double most,
-                  const char* description);
+                  const std::string& description);
 
   /// A whole number in an interval.
   template <class T>
   void add_count(const char* name, const char* value, T& count, T least, T most,
-                 const char* description) {
+                 const std::string& description) {
     add_text(name, value, description, [=, &count](const std::string& text) {
       count = T(parse_count(name, text, int64_t(least), int64_t(most)));
     });

@@ -7,8 +7,9 @@
 
 namespace whittle {
 
-/// Shows the stage, and the share of it that is done, on standard error. Nothing is shown if that is
-/// no terminal, if `wanted` is false, or in the first second. The line goes when the object does.
+/// Shows the stage, and the share of it that is done, on standard error. Nothing is shown if that
+/// is no terminal, if `wanted` is false, or in the first second. The line goes when the object
+/// does.
 class ProgressLine {
  public:
   /// Names of stages must live forever.

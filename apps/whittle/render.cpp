@@ -21,8 +21,7 @@ namespace whittle {
 namespace {
 
 constexpr CommandHelp kHelp = {
-    "whittle",
-    "Exact pictures of Constructive Solid Geometry, from OpenSCAD files.",
+    "whittle", "Exact pictures of Constructive Solid Geometry, from OpenSCAD files.",
     "FILE -o OUT [options]      makes a picture (the default command)\n"
     "       whittle info FILE                  says what is in a file\n"
     "       whittle compare A.exr B.exr        compares the facts of two pictures\n"
@@ -81,7 +80,7 @@ void add_options(CLI::App& app, RenderArguments& a) {
                   [&](Style style) { a.shading.style = style; });
   add_color_options(app, a.shading);
   look.add_count("--aa", "N", a.antialias, 1, kMostAntialias,
-                 "N x N rays a pixel at edges, 1 to 16 (4; openscad 1)");
+                 "N x N rays a pixel at edges, 1 to 16 (studio: 4)");
   look.add_flag("--no-background", a.no_background, "what is not hit is transparent");
   add_loading_options(app, a.loading);
   add_machine_options(app, a.renderer, a.without_effect);
@@ -103,9 +102,8 @@ Result<std::vector<Output>> choose_outputs(const RenderArguments& a) {
     if (a.export_format) {
       output.format = *a.export_format;
     } else if (path == "-") {
-      return Error{ErrorKind::kUsage,
-                   fmt::format("-o - (standard output) needs --export-format {}",
-                               names_of(format_choices(), " or "))};
+      return Error{ErrorKind::kUsage, fmt::format("-o - (standard output) needs --export-format {}",
+                                                  names_of(format_choices(), " or "))};
     } else {
       const Result<FileFormat> format = format_of(path);
       if (!format) return format.error();
@@ -120,10 +118,9 @@ Status write_all(const RenderArguments& a, const std::vector<Output>& outputs, c
                  const Picture& picture) {
   for (const Output& output : outputs) {
     const bool shows_pass = output.format == FileFormat::kPng && a.pass != Pass::kColor;
-    const Result<std::string> bytes =
-        encode(output.format, frame,
-               shows_pass ? pass_picture(frame, a.pass, !a.no_background) : picture,
-               a.no_background, output.path);
+    const Result<std::string> bytes = encode(
+        output.format, frame, shows_pass ? pass_picture(frame, a.pass, !a.no_background) : picture,
+        a.no_background, output.path);
     if (!bytes) return bytes.error();
     if (Status written = write_output(output.path, *bytes); !written) return written;
   }
@@ -137,10 +134,10 @@ void draw(const RenderArguments& a, const std::vector<Output>& outputs, const Ca
   renderer.prepare(camera);
   progress.stage("tracing");
   frame = renderer.trace(camera, progress.share());
-  const bool shows_color = a.pass == Pass::kColor ||
-                           std::ranges::any_of(outputs, [](const Output& output) {
-                             return output.format == FileFormat::kExr;
-                           });
+  const bool shows_color =
+      a.pass == Pass::kColor || std::ranges::any_of(outputs, [](const Output& output) {
+        return output.format == FileFormat::kExr;
+      });
   if (!shows_color) return;
   progress.stage("shading");
   const int rays = a.antialias > 0 ? a.antialias : default_antialias(a.shading.style);

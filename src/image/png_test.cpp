@@ -11,10 +11,6 @@
 namespace whittle {
 namespace {
 
-std::string temporary(const std::string& name) {
-  return testing::TempDir() + "whittle_" + name;
-}
-
 Picture random_picture(int width, int height, uint32_t seed) {
   Picture picture(width, height);
   for (uint8_t& v : picture.rgba) {
@@ -71,6 +67,13 @@ TEST(Png, AFullDiskIsAnErrorThatNamesTheFile) {
     EXPECT_EQ(written.error().kind, ErrorKind::kMachine);
     EXPECT_EQ(written.error().message.find(path), 0u) << written.error().message;
   }
+}
+
+TEST(Png, AnErrorThatComesWithTheLastBytesIsSeen) {
+  std::FILE* file = std::fopen("/dev/full", "wb");
+  ASSERT_NE(file, nullptr);
+  EXPECT_FALSE(write_png(file, "full", random_picture(2, 2, 1), true));
+  std::fclose(file);
 }
 
 TEST(Png, WhatIsNoPngIsAnError) {

@@ -96,6 +96,12 @@ TEST(Pov, WhatIsSurelyEmptyIsNotWritten) {
   EXPECT_EQ(solid_of(Builder().transform(scaling({1, 1, 0})).add(cube).done()), "");
 }
 
+TEST(Pov, AnIntersectionOfNothingIsNoOperand) {
+  const std::string text = solid_of(
+      Builder().open(NodeKind::kDifference).add(Sphere{2}).open(NodeKind::kIntersection).done());
+  EXPECT_EQ(text.find("sphere"), 0u) << text;
+}
+
 TEST(Pov, BackgroundIsNoOperand) {
   const std::string text = solid_of(
       Builder().open(NodeKind::kDifference).add(Sphere{9}, true).add(Cube{}).add(Sphere{3}).done());

@@ -153,22 +153,29 @@ bool CsgLexer::string(std::string_view& raw) {
   return true;
 }
 
+bool CsgLexer::is_after_string() const {
+  CsgLexer ahead = *this;
+  char c = ahead.peek();
+  if (c != ',') return c == ')';
+  ahead.advance();
+  c = ahead.peek();
+  if (!is_name_start(c)) return true;
+  ahead.identifier();
+  c = ahead.peek();
+  return c == '=' || c == ',' || c == ')';
+}
+
 bool CsgLexer::dumped_text(std::string_view& raw) {
   const CsgLexer start = *this;
-  if (string(raw)) {
-    // In a dump a name and '=' follow the comma.
-    CsgLexer ahead = *this;
-    const char c = ahead.peek();
-    if (c == ')') return true;
-    if (c == ',') {
-      ahead.advance();
-      ahead.peek();
-      if (!ahead.identifier().empty() && ahead.peek() == '=') return true;
-    }
-  }
+  if (string(raw) && is_after_string()) return true;
+  // Once the search has gone to the end of the file for nothing, it need not again.
+  if (no_dumped_text_ahead_) return !mistake_;
   const std::string_view rest(start.next_, static_cast<size_t>(end_ - start.next_));
   const size_t close = rest.find("\", size =", 1);
-  if (close == std::string_view::npos) return !mistake_;
+  if (close == std::string_view::npos) {
+    no_dumped_text_ahead_ = true;
+    return !mistake_;
+  }
   *this = start;
   raw = rest.substr(1, close - 1);
   move_to(next_ + close + 1);

@@ -70,7 +70,7 @@ class CsgLexer {
   bool string(std::string_view& raw);
 
   /// The same for the argument of text(), where OpenSCAD's dumper does not escape quotes: if
-  /// nothing that may follow a string follows the first closing quote, the string ends before
+  /// no argument list goes on behind the first closing quote, the string ends before
   /// `", size =`.
   bool dumped_text(std::string_view& raw);
 
@@ -92,11 +92,13 @@ class CsgLexer {
   bool skip_comment();
   void move_to(const char* target);
   bool malformed_number(const char* from);
+  bool is_after_string() const;
 
   const char* next_;
   const char* end_;
   const char* line_start_;
   uint32_t line_ = 1;
+  bool no_dumped_text_ahead_ = false;
   std::optional<Mistake> mistake_;
 };
 

@@ -100,6 +100,8 @@ TEST(CsgLexer, RecoversTheTextOfDumpsWhereQuotesAreNotEscaped) {
       {R"("plain", size = 10))", "plain"},
       {R"("a\"b", size = 10))", R"(a\"b)"},
       {R"("by hand"); text(text = "b", size = 3))", "by hand"},
+      {R"("by hand", 10); cube(); text(text = "b", size = 3))", "by hand"},
+      {R"("by hand", n); cube(); text(text = "b", size = 3))", "by hand"},
       {R"("by hand", font = "b", size = 3))", "by hand"},
   };
   for (const auto& [text, expected] : cases) {

@@ -119,6 +119,12 @@ TEST_F(ReadFileTest, WhatOpenscadSaysIsPassedOn) {
   EXPECT_TRUE(fs::is_empty(folder_ / "tmp"));
 }
 
+TEST_F(ReadFileTest, WhatAFailedOpenscadLeavesIsNotRead) {
+  install_openscad("echo 'cube();' > \"$2\"\nexit 1\n");
+  const std::string path = write("a.scad", "cube();");
+  EXPECT_EQ(error_of(path).message, path + ": error: openscad cannot evaluate it");
+}
+
 TEST_F(ReadFileTest, OpenscadThatWritesNothingIsAnError) {
   install_openscad("exit 0\n");
   const std::string path = write("a.scad", "cube();");

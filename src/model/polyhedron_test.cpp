@@ -173,19 +173,30 @@ TEST(BuildPlanes, SixDigitCornersAreAccepted) {
   }));
 }
 
-TEST(BuildPlanes, SliverInALargeFaceDoesNotTiltIt) {
-  // The top is cut into two halves and a sliver between them whose corner is off by one in the
-  // sixth digit; its own direction is worthless and must not bound the solid.
+/// The top of a large box cut into triangles that meet in a point close to one edge of it.
+Polyhedron box_with_sliver(double height_of_point) {
   Polyhedron p = box({100, 100, 10});
-  p.points.push_back({50, 50.0001, 10.0001});
+  p.points.push_back({50, 99.99, height_of_point});
   p.faces[2] = {7, 6, 8};
   p.faces.push_back({6, 5, 8});
   p.faces.push_back({5, 4, 8});
   p.faces.push_back({4, 7, 8});
+  return p;
+}
+
+TEST(BuildPlanes, SliverInALargeFaceGoesWithIt) {
+  Polyhedron p = box_with_sliver(10.0001);
   EXPECT_EQ(build_planes(p), std::nullopt);
   EXPECT_EQ(p.planes.size(), 6u);
-  EXPECT_LE(outside(p.planes, {0, 0, 10}), 0);
-  EXPECT_NEAR(outside(p.planes, {99, 99, 10.5}), 0.5, 1e-3);
+}
+
+TEST(BuildPlanes, SliverOfUncertainDirectionDoesNotCut) {
+  // A dent of seven in the sixth digit, less than what is forgiven, tilts the sliver by four
+  // degrees; taken at its word it would cut seven units off the other side.
+  Polyhedron p = box_with_sliver(9.9993);
+  EXPECT_EQ(build_planes(p), std::nullopt);
+  for (const Vec3 corner : p.points) EXPECT_LE(outside(p.planes, corner), 0);
+  EXPECT_NEAR(outside(p.planes, {50, 50, 10.5}), 0.5, 2e-3);
 }
 
 }  // namespace

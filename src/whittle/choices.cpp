@@ -14,11 +14,8 @@ constexpr Choice<Curves> kCurves[] = {
     {"auto", Curves::kAuto}, {"facets", Curves::kFacets}, {"smooth", Curves::kSmooth}};
 constexpr Choice<SplitRule> kSplits[] = {{"longest", SplitRule::kLongest},
                                          {"xyz", SplitRule::kXyz}};
-constexpr Choice<bool> kProjections[] = {{"perspective", false},
-                                         {"p", false},
-                                         {"orthogonal", true},
-                                         {"ortho", true},
-                                         {"o", true}};
+constexpr Choice<bool> kProjections[] = {
+    {"perspective", false}, {"p", false}, {"orthogonal", true}, {"ortho", true}, {"o", true}};
 constexpr Choice<bool> kSmallCells[] = {{"trace", false}, {"ignore", true}};
 
 }  // namespace

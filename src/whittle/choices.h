@@ -1,5 +1,5 @@
-// What can be chosen by name: one list of each, for the command line, its help, its messages, and the
-// public API alike.
+// What can be chosen by name: one list of each, for the command line, its help, its messages, and
+// the public API alike.
 #pragma once
 
 #include <span>
@@ -55,8 +55,8 @@ std::string names_of(Choices<T> choices, std::string_view separator = ", ") {
   return names;
 }
 
-/// The value of that name; else a kUsage error that says what there is. `what` is what is chosen, as
-/// in "style".
+/// The value of that name; else a kUsage error that says what there is. `what` is what is chosen,
+/// as in "style".
 template <class T>
 Result<T> choose(Choices<T> choices, std::string_view what, std::string_view name) {
   for (const Choice<T>& choice : choices) {

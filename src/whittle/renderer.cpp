@@ -1,13 +1,13 @@
 #include "whittle/renderer.h"
 
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
 
 #include <chrono>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/workers.h"
 #include "image/antialias.h"
 #include "lower/lower.h"
 #include "model/instances.h"
@@ -43,7 +43,7 @@ Camera camera_for(const Model& model, const ViewOptions& options) {
 struct Renderer::State {
   const Model& model;
   RendererSettings settings;
-  tbb::task_arena arena;
+  Workers workers;
   std::vector<Appearance> looks;
   StageTimes times;
   // In the order in which they are made from one another.
@@ -53,9 +53,7 @@ struct Renderer::State {
   CpuTracer* cpu = nullptr;  ///< the tracer, if it is that one
 
   State(const Model& model_, const RendererSettings& settings_)
-      : model(model_),
-        settings(settings_),
-        arena(settings_.threads > 0 ? settings_.threads : tbb::task_arena::automatic) {}
+      : model(model_), settings(settings_), workers(settings_.threads) {}
 };
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -113,9 +111,8 @@ Picture Renderer::shade(const Frame& frame, const Camera& camera, const ShadeSet
   State& s = *state_;
   const auto start = Clock::now();
   Picture picture;
-  s.arena.execute([&] {
-    picture = shade_antialiased(tracer(), camera, frame, s.looks, settings, antialias);
-  });
+  s.workers.run(
+      [&] { picture = shade_antialiased(tracer(), camera, frame, s.looks, settings, antialias); });
   s.times.shade = milliseconds_since(start);
   return picture;
 }

@@ -30,9 +30,11 @@ Status check_picture_size(int64_t width, int64_t height);
 /// The camera for a model: OpenSCAD's, framing the bounds of the solid where view-all is on.
 Camera camera_for(const Model& model, const ViewOptions& options);
 
-/// Rays a side of an edge pixel that look right where nobody says: OpenSCAD has no antialiasing, so
-/// its style has none.
-constexpr int default_antialias(Style style) { return style == Style::kOpenscad ? 1 : 4; }
+/// Rays a side of an edge pixel where nobody says: what looks right. The styles that show what
+/// others show (the paper, OpenSCAD) have no antialiasing, as those have none.
+constexpr int default_antialias(Style style) {
+  return style == Style::kStudio ? 4 : 1;
+}
 
 struct RendererSettings {
   Backend backend = Backend::kAuto;
@@ -56,8 +58,8 @@ class Renderer {
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
 
-  /// Makes the cells and the tracer. The camera counts only if there is a pixel threshold. The oracle
-  /// has no cells.
+  /// Makes the cells and the tracer. The camera counts only if there is a pixel threshold. The
+  /// oracle has no cells.
   void prepare(const Camera& camera);
   /// Precondition of all below: prepare() was called.
   Frame trace(const Camera& camera, const Progress& progress = {});

@@ -114,8 +114,8 @@ std::uint32_t Solid::statement_count() const {
 std::optional<std::array<Point, 2>> Solid::bounds() const {
   const Bounds& b = state_->bounds;
   if (!b.bounded || b.box.is_empty()) return std::nullopt;
-  return std::array<Point, 2>{{{b.box.lo.x, b.box.lo.y, b.box.lo.z},
-                               {b.box.hi.x, b.box.hi.y, b.box.hi.z}}};
+  return std::array<Point, 2>{
+      {{b.box.lo.x, b.box.lo.y, b.box.lo.z}, {b.box.hi.x, b.box.hi.y, b.box.hi.z}}};
 }
 
 Rendering Solid::render(const RenderOptions& options) const {

@@ -102,6 +102,8 @@ constexpr int kSeedsPerChunk = 125, kChunks = 8;
 
 TEST_P(RandomTrees, Agree) {
   AgreementReport sum;
+  std::vector<SubdivideSettings> rules;
+  for (const uint32_t k : kLeafSizes) rules.push_back(leaf_size(k));
   for (int i = 0; i < kSeedsPerChunk; ++i) {
     const uint64_t seed = uint64_t(GetParam()) * kSeedsPerChunk + uint64_t(i) + 1;
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -109,8 +111,7 @@ TEST_P(RandomTrees, Agree) {
     options.primitives = 4 + int(seed % 24);
     options.halfspaces = seed % 5 == 0;
     const Model model = model_of(random_tree(seed, options));
-    const SubdivideSettings rules[] = {leaf_size(kLeafSizes[seed % 4])};
-    add(sum, agree(model, rules, 32, 24));
+    add(sum, agree(model, rules, 24, 18));
   }
   EXPECT_GT(sum.hits, sum.pixels / 5);
   EXPECT_LT(sum.ambiguous, sum.pixels / 50);

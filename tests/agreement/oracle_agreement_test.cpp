@@ -84,6 +84,22 @@ TEST(Agreement, RandomTreesAreSeenAndAreMostlyCertain) {
   EXPECT_LE(ambiguous, pixels / 200);
 }
 
+TEST(RandomTree, IsReadWithoutComplaint) {
+  for (const bool coincident : {false, true})
+    for (uint64_t seed = 0; seed < 100; ++seed) {
+      const std::string text = random_tree(seed, {.coincident = coincident, .halfspaces = true});
+      const Result<Read> read = read_csg(text, "random.csg");
+      ASSERT_TRUE(read) << read.error().message;
+      EXPECT_TRUE(read->warnings.empty()) << read->warnings[0] << '\n' << text;
+      EXPECT_FALSE(read->unsupported);
+    }
+}
+
+TEST(RandomTree, IsTheSameFromTheSameSeed) {
+  EXPECT_EQ(random_tree(5), random_tree(5));
+  EXPECT_NE(random_tree(5), random_tree(6));
+}
+
 TEST(Agreement, DroppedSolidIsCaught) {
   EXPECT_GT(check_other(replaced(kScene, "r = 6", "r = 0")).unexplained, 100);
 }

@@ -178,8 +178,8 @@ TEST_P(Algebra, WhatIsEnteredIsLeft) {
           return dot({double(h.normal.x), double(h.normal.y), double(h.normal.z)}, ray.direction) >
                  0;
         };
-        // On from a little beyond the hit.
-        const Vec3 beyond = ray.origin + ray.direction * (double(hit.distance) + 1e-3);
+        // On from beyond the hit by more than the rounding of its distance.
+        const Vec3 beyond = ray.origin + ray.direction * (double(hit.distance) + 1e-5);
         const Hit next = trace_one(*oracle, beyond, ray.direction);
         if (!leaves(hit)) {
           ASSERT_TRUE(next.hit());

@@ -74,7 +74,7 @@ bool BooleanState::evaluate(uint32_t node) const {
     case NodeKind::kDifference:
       return first_value_[node] && true_operands_[node] == 0;
     case NodeKind::kIntersection:
-      return n.operands > 0 && true_operands_[node] == n.operands;
+      return true_operands_[node] == n.operands;
     default:
       return true_operands_[node] > 0;
   }

@@ -50,6 +50,7 @@ class BooleanState {
     return step_of_[node] == step_ && before_[node] != value_[node];
   }
   void set(uint32_t node, bool value);
+  /// Only asked of nodes with operands; without, all are false for ever.
   bool evaluate(uint32_t node) const;
 
   const BooleanTree* tree_;

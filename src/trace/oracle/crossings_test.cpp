@@ -37,6 +37,9 @@ TEST(GroupCrossings, SameSurfaceWithinTheTolerance) {
 TEST(GroupCrossings, DoNotChain) {
   EXPECT_EQ(groups({{1, 0, true, kX}, {1.000015, 1, true, kX}, {1.00003, 2, true, kX}}, kX),
             (Groups{{0, 1}, {2}}));
+  const Vec3 turned = normalize(Vec3{1, 3e-6, 0}), twice = normalize(Vec3{1, 6e-6, 0});
+  EXPECT_EQ(groups({{1, 0, true, kX}, {1.000001, 1, true, turned}, {1.000002, 2, true, twice}}, kX),
+            (Groups{{0, 1}, {2}}));
 }
 
 TEST(GroupCrossings, DistanceIsAcrossTheSurface) {

@@ -89,6 +89,12 @@ TEST(Oracle, UnboundedIsSeenInsideItsRegionOnly) {
   EXPECT_EQ(hit.id, 1u);
   EXPECT_NEAR(hit.distance, 6000 * std::sqrt(1 + 1e-6), 1e-2);
   EXPECT_EQ(hit.normal, (Vec3f{0, 0, 1}));
+  // It would leave the slab beyond the region.
+  EXPECT_FALSE(look(slab, {-6000, 0, 2}, {1, 0, 0.0001}).hit());
+  // It enters the slab before the region, and leaves it below inside the region.
+  const Hit below = look(slab, {-6000, 0, 20}, {1, 0, -0.008});
+  EXPECT_EQ(below.id, 2u);
+  EXPECT_NEAR(below.distance, 2500 * std::sqrt(1 + 6.4e-5), 1e-2);
 }
 
 TEST(Oracle, OneThreadSeesWhatManySee) {
@@ -117,6 +123,17 @@ TEST(Oracle, ProbesWhatItRenders) {
     EXPECT_EQ(hits[i].id, frame.hits[i].id);
     EXPECT_EQ(hits[i].distance, frame.hits[i].distance);
   }
+}
+
+TEST(Oracle, TellsItsProgress) {
+  const Model model = model_of("cube(1);");
+  const auto oracle = make_oracle_tracer(model, 1);
+  std::vector<double> told;
+  oracle->render(cameras_for(model, 10, 50)[0], [&](double share) { told.push_back(share); });
+  ASSERT_FALSE(told.empty());
+  EXPECT_GT(told.front(), 0);
+  EXPECT_TRUE(std::ranges::is_sorted(told));
+  EXPECT_EQ(told.back(), 1);
 }
 
 TEST(Oracle, MissesHaveNoFacts) {

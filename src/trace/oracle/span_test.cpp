@@ -159,6 +159,8 @@ TEST(RaySpan, AlongALineOfTheCone) {
   const Span span = span_of(Cylinder{.h = 2, .r1 = 1, .r2 = 0}, {0.5, 0, 0}, {-0.5, 0, 1});
   EXPECT_DOUBLE_EQ(span.t0, 0);
   EXPECT_DOUBLE_EQ(span.t1, 1.5);
+  // As far outside it: what this line would enter is the other nappe.
+  EXPECT_TRUE(span_of(Cylinder{.h = 2, .r1 = 1, .r2 = 0}, {1.5, 0, 0}, {-0.5, 0, 1}).is_empty());
 }
 
 TEST(RaySpan, HalfspaceIsHalfALine) {

@@ -1,0 +1,254 @@
+// whittle bench FILE...: what every stage costs, once its picture is known to be right.
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <tbb/info.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+#include "commands.h"
+#include "console.h"
+#include "option_group.h"
+#include "oracle_check.h"
+#include "statistics.h"
+#include "trace/oracle/oracle.h"
+#include "whittle/output.h"
+
+namespace whittle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+constexpr CommandHelp kHelp = {
+    "whittle bench",
+    "Measures every stage: the median milliseconds of parse, lower, subdivide, trace,\n"
+    "shade, and cold: from the lowered model to the finished picture (subdivision,\n"
+    "trace and shading without antialiasing). The picture is compared with the\n"
+    "oracle's first; if it is wrong, nothing is measured.",
+    "FILE... [options]",
+    "Examples:\n"
+    "  whittle bench examples/cheese1000.csg\n"
+    "  whittle bench a.csg b.csg --imgsize 1024,1024 --repeat 15 --json\n\n"
+    "Exit codes: 0 done, 1 bad input or a wrong picture, 2 bad usage, 3 refused by\n"
+    "the machine."};
+
+struct BenchArguments {
+  std::vector<std::string> files;
+  int repeat = 5;
+  bool wants_json = false;
+  Loading loading;
+  ViewOptions view;
+  RendererSettings renderer;
+  SubdivisionArguments subdivision;
+  WithoutEffect without_effect;
+};
+
+class Stopwatch {
+ public:
+  double milliseconds() const {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
+  }
+
+ private:
+  Clock::time_point start_ = Clock::now();
+};
+
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const size_t middle = values.size() / 2;
+  return values.size() % 2 != 0 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+/// Looks at a coarse grid of places with the tracer to be measured and with the oracle.
+Status check(const std::string& file, const Model& model, const Camera& camera, Renderer& renderer,
+             bool ignores_small, Json& json) {
+  const auto oracle = make_oracle_tracer(model);
+  const OracleCheck check = check_against_oracle(renderer.tracer(), *oracle, camera);
+  json["checked"] = check.certain;
+  json["ambiguous"] = check.ambiguous;
+  json["wrong"] = check.wrong;
+  // Cells that were to be ignored are not seen; that is what was asked for, in moderation.
+  constexpr size_t kIgnoredShare = 50;
+  const size_t allowed = ignores_small ? check.certain / kIgnoredShare : 0;
+  if (check.wrong <= allowed) return Done{};
+  return Error{ErrorKind::kInput,
+               fmt::format("{}: error: the picture is wrong at {} of {} places, so nothing was "
+                           "measured: {}",
+                           file, check.wrong, check.certain, check.first)};
+}
+
+Result<Json> measure(const std::string& file, const BenchArguments& a) {
+  Json json;
+  json["file"] = file;
+  std::vector<double> parse, lower, subdivide, trace, shade, cold;
+  std::optional<Read> read;
+  for (int i = 0; i < a.repeat; ++i) {
+    read.reset();
+    const Stopwatch watch;
+    Result<Read> again = read_file(file, a.loading.options);
+    parse.push_back(watch.milliseconds());
+    if (!again) return again.error();
+    read = *std::move(again);
+  }
+  if (Status fit = say_warnings(*read, a.loading); !fit) return fit.error();
+
+  const Camera camera = camera_for(read->model, a.view);
+  std::optional<Renderer> renderer;
+  for (int i = 0; i < a.repeat; ++i) {
+    renderer.reset();
+    Result<Renderer> again = Renderer::make(read->model, a.renderer);
+    if (!again) return again.error();
+    renderer = *std::move(again);
+    lower.push_back(renderer->times().lower);
+  }
+  renderer->prepare(camera);
+  if (Status right =
+          check(file, read->model, camera, *renderer, a.renderer.subdivide.ignore_small, json);
+      !right) {
+    return right.error();
+  }
+  for (int i = 0; i < a.repeat; ++i) {
+    const Stopwatch watch;
+    renderer->prepare(camera);
+    const Frame frame = renderer->trace(camera);
+    const Picture picture = renderer->shade(frame, camera, ShadeSettings{}, 1);
+    cold.push_back(watch.milliseconds());
+    subdivide.push_back(renderer->times().subdivide);
+    trace.push_back(renderer->times().trace);
+    shade.push_back(renderer->times().shade);
+  }
+
+  json["backend"] = name_of(backend_choices(), renderer->backend());
+  json["width"] = camera.width;
+  json["height"] = camera.height;
+  json["threads"] = a.renderer.threads > 0 ? a.renderer.threads : tbb::info::default_concurrency();
+  json["repeat"] = a.repeat;
+  json["parse_ms"] = median(parse);
+  json["lower_ms"] = median(lower);
+  json["subdivide_ms"] = median(subdivide);
+  json["trace_ms"] = median(trace);
+  json["shade_ms"] = median(shade);
+  json["cold_ms"] = median(cold);
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  // The oracle has neither cells nor half-spaces, and what it does for a ray is always all.
+  const Scene* scene = renderer->scene();
+  const CellTree* cells = renderer->cells();
+  const TraceStats stats = renderer->trace_stats();
+  const auto rays = uint64_t(camera.width) * uint64_t(camera.height);
+  json["half_spaces"] = scene != nullptr ? scene->half_spaces.size() : 0;
+  json["cells"] = cells != nullptr ? cells->cells.size() : 0;
+  json["leaves"] = cells != nullptr ? cells->leaves.size() : 0;
+  json["rays"] = rays;
+  json["cell_visits_per_ray"] = double(stats.cells) / double(rays);
+  json["leaf_visits_per_ray"] = double(stats.leaves) / double(rays);
+  json["literals_per_ray"] = double(stats.literals) / double(rays);
+  return json;
+}
+
+/// Measures in a process of its own, so that the peak of memory is that of this file alone. Passes
+/// on what is said there; the exit code, and what was measured if it is 0.
+int measure_apart(const std::string& file, const BenchArguments& a, Json& json) {
+  int ends[2];
+  if (::pipe(ends) != 0) {
+    return report({ErrorKind::kMachine, fmt::format("no pipe: {}", std::strerror(errno))});
+  }
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::close(ends[0]);
+    ::dup2(ends[1], STDOUT_FILENO);
+    int code = kExitDone;
+    try {
+      const Result<Json> measured = measure(file, a);
+      code = measured ? print(measured->dump(-1, ' ', false, Json::error_handler_t::replace))
+                      : report(measured.error());
+    } catch (const std::bad_alloc&) {
+      code = report({ErrorKind::kMachine, fmt::format("{}: out of memory", file)});
+    }
+    ::_exit(code);
+  }
+  ::close(ends[1]);
+  std::string text;
+  char buffer[4096];
+  for (ssize_t got = 0; (got = ::read(ends[0], buffer, sizeof buffer)) != 0;) {
+    if (got > 0) text.append(buffer, size_t(got));
+    if (got < 0 && errno != EINTR) break;
+  }
+  ::close(ends[0]);
+  int status = 0;
+  if (child < 0 || ::waitpid(child, &status, 0) != child || !WIFEXITED(status)) {
+    return report({ErrorKind::kMachine, fmt::format("{}: the measurement was ended", file)});
+  }
+  if (WEXITSTATUS(status) == kExitDone) json = Json::parse(text);
+  return WEXITSTATUS(status);
+}
+
+std::string describe(const Json& m) {
+  std::string text;
+  const auto number = [&](const char* name) { return m[name].get<double>(); };
+  const auto count = [&](const char* name) { return m[name].get<uint64_t>(); };
+  auto out = std::back_inserter(text);
+  fmt::format_to(out, "{}: {} x {}, backend {}, {} threads, median of {}\n",
+                 m["file"].get<std::string>(), count("width"), count("height"),
+                 m["backend"].get<std::string>(), count("threads"), count("repeat"));
+  for (const char* stage : {"parse", "lower", "subdivide", "trace", "shade", "cold"}) {
+    fmt::format_to(out, "  {:<12}{:>10.2f} ms\n", stage,
+                   number(fmt::format("{}_ms", stage).c_str()));
+  }
+  fmt::format_to(out, "  {:<12}{:>10}\n", "half-spaces", count("half_spaces"));
+  fmt::format_to(out, "  {:<12}{:>10}    {} leaves\n", "cells", count("cells"), count("leaves"));
+  fmt::format_to(out, "  {:<12}{:>10}    {:.2f} cells, {:.2f} leaves, {:.2f} half-spaces a ray\n",
+                 "rays", count("rays"), number("cell_visits_per_ray"),
+                 number("leaf_visits_per_ray"), number("literals_per_ray"));
+  fmt::format_to(out, "  {:<12}{:>10}    at most\n", "memory",
+                 describe_bytes(count("peak_memory_bytes")));
+  fmt::format_to(out, "  {:<12}{:>10}    places as the oracle sees them, {} ambiguous, {} wrong\n",
+                 "checked", count("checked") - count("wrong"), count("ambiguous"), count("wrong"));
+  return text;
+}
+
+}  // namespace
+
+int bench_command(Arguments arguments) {
+  constexpr int kMostRepeats = 100000;
+  CLI::App app;
+  set_help(app, kHelp);
+  BenchArguments a;
+  app.add_option("FILE", a.files)->required();
+  OptionGroup group(app, "Measurement");
+  group.add_count("--repeat", "N", a.repeat, 1, kMostRepeats, "times that all is done (5)");
+  group.add_flag("--json", a.wants_json, "an array with one object a file");
+  add_view_options(app, a.view);
+  add_loading_options(app, a.loading);
+  add_machine_options(app, a.renderer, a.without_effect);
+  add_subdivision_options(app, a.subdivision);
+  if (const std::optional<int> code = parse(app, arguments)) return *code;
+  if (std::ranges::find(a.files, "-") != a.files.end()) {
+    return report({ErrorKind::kUsage, "standard input cannot be read again; bench wants files"});
+  }
+  apply(a.subdivision, a.renderer);
+
+  Json all = Json::array();
+  for (const std::string& file : a.files) {
+    Json measured;
+    if (const int code = measure_apart(file, a, measured); code != kExitDone) return code;
+    if (a.wants_json) {
+      all.push_back(std::move(measured));
+    } else if (const int code = print(describe(measured)); code != kExitDone) {
+      return code;
+    }
+  }
+  return a.wants_json ? print(all.dump(2) + "\n") : kExitDone;
+}
+
+}  // namespace whittle

@@ -1,0 +1,163 @@
+// whittle info FILE: what is in a file.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "command_line.h"
+#include "commands.h"
+#include "console.h"
+#include "lower/lower.h"
+#include "model/instances.h"
+#include "option_group.h"
+
+namespace whittle {
+namespace {
+
+constexpr CommandHelp kHelp = {
+    "whittle info", "Says what is in a model: counts, bounds, warnings.", "FILE [options]",
+    "Examples:\n"
+    "  whittle info part.csg\n"
+    "  whittle info part.csg --json | jq .half_spaces\n\n"
+    "Exit codes: 0 done, 1 bad input, 2 bad usage, 3 refused by the machine."};
+
+constexpr std::array<const char*, 6> kNodeNames = {"union",     "difference", "intersection",
+                                                   "transform", "color",      "primitive"};
+constexpr std::array<const char*, std::variant_size_v<Shape>> kShapeNames = {
+    "cube", "sphere", "cylinder", "polyhedron", "halfspace"};
+
+struct Info {
+  std::array<size_t, kNodeNames.size()> nodes{};
+  std::array<size_t, kShapeNames.size()> shapes{};
+  size_t curved = 0;      ///< spheres and cylinders that are true curves
+  size_t background = 0;  ///< nodes marked `%`
+  size_t highlight = 0;   ///< nodes marked `#`
+  size_t in_solid = 0;    ///< primitives that are not background
+  size_t empty = 0;       ///< of those
+  size_t faces = 0, half_spaces = 0;
+  Bounds bounds;
+  double tolerance = 0;
+};
+
+Result<Info> gather(const Model& model) {
+  Info info;
+  for (const Node& node : model.nodes) {
+    ++info.nodes[size_t(node.kind)];
+    info.background += node.background;
+    info.highlight += node.highlight;
+  }
+  for (const Primitive& primitive : model.primitives) {
+    ++info.shapes[primitive.shape.index()];
+    info.curved += !is_flat(primitive.shape);
+  }
+  for (const Instance& instance : instances(model)) {
+    ++info.in_solid;
+    info.empty += instance.empty;
+  }
+  const Result<Scene> scene = lower(model);
+  if (!scene) return scene.error();
+  info.faces = scene->faces.size();
+  info.half_spaces = scene->half_spaces.size();
+  info.bounds = bounds(model);
+  info.tolerance = tolerance(info.bounds);
+  return info;
+}
+
+nlohmann::ordered_json to_json(Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+
+std::string describe_json(const Read& read, const Info& info) {
+  nlohmann::ordered_json json;
+  json["file"] = read.model.file;
+  json["statements"] = read.model.statement_count;
+  for (size_t i = 0; i < kNodeNames.size(); ++i) json["nodes"][kNodeNames[i]] = info.nodes[i];
+  for (size_t i = 0; i < kShapeNames.size(); ++i) {
+    json["primitives"][kShapeNames[i]] = info.shapes[i];
+  }
+  json["curved_primitives"] = info.curved;
+  json["empty_primitives"] = info.empty;
+  json["background_nodes"] = info.background;
+  json["highlight_nodes"] = info.highlight;
+  json["faces"] = info.faces;
+  json["half_spaces"] = info.half_spaces;
+  json["merged_faces"] = info.faces - info.half_spaces;
+  json["bounded"] = info.bounds.bounded;
+  json["bounds"] = nullptr;
+  if (!info.bounds.box.is_empty()) {
+    json["bounds"] = {{"lo", to_json(info.bounds.box.lo)}, {"hi", to_json(info.bounds.box.hi)}};
+  }
+  json["tolerance"] = info.tolerance;
+  json["supported"] = !read.unsupported;
+  json["warnings"] = read.warnings;
+  // A file name may be any bytes; JSON may not.
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+template <size_t count>
+std::string list(const std::array<const char*, count>& names,
+                 const std::array<size_t, count>& numbers) {
+  std::string text;
+  for (size_t i = 0; i < count; ++i) {
+    if (numbers[i] == 0) continue;
+    fmt::format_to(std::back_inserter(text), "{}{} {}", text.empty() ? "" : ", ", names[i],
+                   numbers[i]);
+  }
+  return text.empty() ? "none" : text;
+}
+
+std::string describe_bounds(const Bounds& bounds) {
+  if (bounds.box.is_empty()) return "empty";
+  const Vec3 lo = bounds.box.lo, hi = bounds.box.hi;
+  return fmt::format("[{:.6g}, {:.6g}, {:.6g}] to [{:.6g}, {:.6g}, {:.6g}]{}", lo.x, lo.y, lo.z,
+                     hi.x, hi.y, hi.z, bounds.bounded ? "" : ", and unbounded beyond");
+}
+
+std::string describe_text(const Read& read, const Info& info) {
+  std::string text;
+  const auto add = [&](const char* name, const std::string& value) {
+    fmt::format_to(std::back_inserter(text), "{:<12} {}\n", name, value);
+  };
+  add("file", read.model.file);
+  add("statements", fmt::format("{} of primitives", read.model.statement_count));
+  add("nodes", list(kNodeNames, info.nodes));
+  add("primitives", fmt::format("{}; {} curved", list(kShapeNames, info.shapes), info.curved));
+  add("in the solid", fmt::format("{} primitives, {} of them empty", info.in_solid, info.empty));
+  if (info.background + info.highlight > 0) {
+    add("marked",
+        fmt::format("{} background (%), {} highlighted (#)", info.background, info.highlight));
+  }
+  add("half-spaces", fmt::format("{} for {} faces, {} merged", info.half_spaces, info.faces,
+                                 info.faces - info.half_spaces));
+  add("bounds", describe_bounds(info.bounds));
+  add("tolerance", fmt::format("{:.3g}", info.tolerance));
+  add("warnings", fmt::format("{}{}", read.warnings.size(),
+                              read.unsupported ? ", and not everything is supported" : ""));
+  return text;
+}
+
+}  // namespace
+
+int info_command(Arguments arguments) {
+  CLI::App app;
+  set_help(app, kHelp);
+  std::string file;
+  bool wants_json = false;
+  Loading loading;
+  app.add_option("FILE", file)->required();
+  OptionGroup(app, "Output").add_flag("--json", wants_json, "one JSON object, warnings in it");
+  add_loading_options(app, loading);
+  if (const std::optional<int> code = parse(app, arguments)) return *code;
+
+  if (wants_json) loading.quiet = true;
+  const Result<Read> read = load(file, loading);
+  if (!read) return report(read.error());
+  const Result<Info> info = gather(read->model);
+  if (!info) return report(info.error());
+  return print(wants_json ? describe_json(*read, *info) : describe_text(*read, *info));
+}
+
+}  // namespace whittle
