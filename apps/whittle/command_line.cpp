@@ -25,6 +25,9 @@ class HelpFormatter : public CLI::Formatter {
     return "\nUsage: " + usage_ + "\n";
   }
   std::string make_positionals(const CLI::App*) const override { return {}; }
+  std::string make_groups(const CLI::App* app, CLI::AppFormatMode mode) const override {
+    return CLI::detail::find_and_replace(CLI::Formatter::make_groups(app, mode), "\n\n\n", "\n\n");
+  }
   /// Without what CLI11 says about types and multiplicity: our descriptions do.
   std::string make_option_opts(const CLI::Option* option) const override {
     if (option->get_type_size() == 0) return {};
@@ -42,10 +45,11 @@ void set_help(CLI::App& app, const CommandHelp& help) {
   app.description(help.description);
   app.footer(help.footer);
   app.formatter(std::make_shared<HelpFormatter>(std::string(help.name) + " " + help.usage));
-  app.set_help_flag("-h,--help", "say this and stop")->group("Other");
 }
 
 std::optional<int> parse(CLI::App& app, Arguments arguments) {
+  // Added last, so that it comes last in the help.
+  app.set_help_flag("-h,--help", "say this and stop")->group("Other");
   // CLI11 takes them last first.
   std::vector<std::string> words(arguments.rbegin(), arguments.rend());
   try {
@@ -217,43 +221,39 @@ void apply(const SubdivisionArguments& arguments, RendererSettings& settings) {
 
 void add_openscad_options(CLI::App& app, WithoutEffect& without_effect) {
   struct Ignored {
-    const char* names;
-    const char* value;
+    const char* name;
     bool is_missed;  ///< with it, OpenSCAD's picture or outputs would be others
   };
-  constexpr Ignored kIgnored[] = {{"-D", "X=VALUE", true},
-                                  {"-p", "FILE", true},
-                                  {"-P", "NAME", true},
-                                  {"-d", "FILE", true},
-                                  {"-m", "COMMAND", true},
-                                  {"--view", "NAMES", true},
-                                  {"--animate", "N", true},
-                                  {"--animate_sharding", "I/K", true},
-                                  {"--summary", "NAMES", true},
-                                  {"--summary-file", "FILE", true},
-                                  {"--csglimit", "N", false},
-                                  {"--enable", "NAME", false},
-                                  {"--debug", "NAME", false},
-                                  {"--check-parameters", "BOOL", false},
-                                  {"--check-parameter-ranges", "BOOL", false}};
-  constexpr const char* kHeading = "OpenSCAD's, taken without effect";
+  constexpr Ignored kIgnored[] = {{"-D", true},
+                                  {"-p", true},
+                                  {"-P", true},
+                                  {"-d", true},
+                                  {"-m", true},
+                                  {"--view", true},
+                                  {"--animate", true},
+                                  {"--summary", true},
+                                  {"--animate_sharding", true},
+                                  {"--enable", false},
+                                  {"--csglimit", false},
+                                  {"--summary-file", true},
+                                  {"--debug", false},
+                                  {"--check-parameters", false},
+                                  {"--check-parameter-ranges", false}};
+  // No heading: the help's last lines name them.
   for (const Ignored& ignored : kIgnored) {
     app.add_option_function<std::vector<std::string>>(
-           ignored.names,
+           ignored.name,
            [&without_effect, ignored](const std::vector<std::string>&) {
-             if (ignored.is_missed) without_effect.missed.emplace_back(ignored.names);
-           },
-           "")
+             if (ignored.is_missed) without_effect.missed.emplace_back(ignored.name);
+           })
         ->allow_extra_args(false)
-        ->type_name(ignored.value)
-        ->group(kHeading);
+        ->group("");
   }
-  app.add_flag_callback(
-         "--hardwarnings", [&] { without_effect.missed.emplace_back("--hardwarnings"); },
-         "(here: --strict)")
-      ->group(kHeading);
+  app.add_flag_callback("--hardwarnings",
+                        [&] { without_effect.missed.emplace_back("--hardwarnings"); })
+      ->group("");
   // A value comes only after `=`: the next word is FILE.
-  app.add_flag("--render,--preview", without_effect.values, "")->group(kHeading);
+  app.add_flag("--render,--preview", without_effect.values)->group("");
 }
 
 void say_without_effect(const WithoutEffect& without_effect) {

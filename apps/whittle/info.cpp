@@ -122,7 +122,7 @@ std::string describe_text(const Read& read, const Info& info) {
     fmt::format_to(std::back_inserter(text), "{:<12} {}\n", name, value);
   };
   add("file", read.model.file);
-  add("statements", fmt::format("{} of primitives", read.model.statement_count));
+  add("statements", fmt::format("{}", read.model.statement_count));
   add("nodes", list(kNodeNames, info.nodes));
   add("primitives", fmt::format("{}; {} curved", list(kShapeNames, info.shapes), info.curved));
   add("in the solid", fmt::format("{} primitives, {} of them empty", info.in_solid, info.empty));

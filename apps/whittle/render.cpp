@@ -35,7 +35,10 @@ constexpr CommandHelp kHelp = {
     "  whittle part.csg -o top.png --camera 0,0,0,0,0,0,200 --projection ortho\n"
     "  openscad -o - --export-format csg part.scad | whittle - -o part.png\n\n"
     "Exit codes: 0 done, 1 bad input, 2 bad usage, 3 refused by the machine (device,\n"
-    "memory, disk)."};
+    "memory, disk).\n\n"
+    "OpenSCAD's -D, -d, -m, -p, -P, --animate, --animate_sharding, --check-parameters,\n"
+    "--check-parameter-ranges, --csglimit, --debug, --enable, --hardwarnings, --preview,\n"
+    "--render, --summary, --summary-file and --view are taken without effect."};
 
 struct Output {
   std::string path;

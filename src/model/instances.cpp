@@ -244,11 +244,13 @@ std::vector<std::string> transform_warnings(const Model& model) {
     if (node.kind != NodeKind::kTransform) continue;
     const Affine& map = model.transforms[node.payload];
     if (!map.is_finite())
-      warnings.push_back(message_at(model.file, node.where,
-                                    "this transform is not finite; what it moves is left empty"));
+      warnings.push_back(
+          message_at(model.file, node.where,
+                     "warning: this transform is not finite; what it moves is left empty"));
     else if (is_singular(map))
-      warnings.push_back(message_at(model.file, node.where,
-                                    "this transform flattens space; what it moves is left empty"));
+      warnings.push_back(
+          message_at(model.file, node.where,
+                     "warning: this transform flattens space; what it moves is left empty"));
   }
   return warnings;
 }

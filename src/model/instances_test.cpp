@@ -120,8 +120,8 @@ TEST(Instances, FlattenedAndNonFiniteAreEmpty) {
   EXPECT_TRUE(found[4].empty);
   const auto warnings = transform_warnings(model);
   ASSERT_EQ(warnings.size(), 2u);
-  EXPECT_NE(warnings[0].find(":1:1: this transform flattens"), std::string::npos);
-  EXPECT_NE(warnings[1].find(":3:1: this transform is not finite"), std::string::npos);
+  EXPECT_NE(warnings[0].find(":1:1: warning: this transform flattens"), std::string::npos);
+  EXPECT_NE(warnings[1].find(":3:1: warning: this transform is not finite"), std::string::npos);
 }
 
 TEST(Instances, AMillionDeep) {
