@@ -25,8 +25,11 @@ class HelpFormatter : public CLI::Formatter {
     return "\nUsage: " + usage_ + "\n";
   }
   std::string make_positionals(const CLI::App*) const override { return {}; }
-  std::string make_groups(const CLI::App* app, CLI::AppFormatMode mode) const override {
-    return CLI::detail::find_and_replace(CLI::Formatter::make_groups(app, mode), "\n\n\n", "\n\n");
+  /// One empty line between groups, not two.
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, std::move(name), mode),
+                                         "\n\n\n", "\n\n");
   }
   /// Without what CLI11 says about types and multiplicity: our descriptions do.
   std::string make_option_opts(const CLI::Option* option) const override {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <climits>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -74,7 +75,8 @@ int model_command(Arguments arguments) {
   ModelArguments a;
   a.shading.style = Style::kBlinn;
   app.add_option("NAME", a.name);
-  app.add_option("N", a.n);
+  app.add_option_function<std::string>(
+      "N", [&](const std::string& text) { a.n = int(parse_count("N", text, 0, INT_MAX)); });
   OptionGroup output(app, "Model");
   output.add_flag("--list", a.wants_list, "say which models there are, and stop");
   // As text: a double does not hold every seed.

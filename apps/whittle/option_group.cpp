@@ -39,6 +39,14 @@ double parse_number(const char* option, std::string_view text) {
   return parse_numbers(option, text, 1)[0];
 }
 
+int64_t parse_count(const char* option, std::string_view text, int64_t least, int64_t most) {
+  const double number = parse_number(option, text);
+  if (number != std::floor(number) || number < double(least) || number > double(most)) {
+    refuse(option, fmt::format("wants a whole number, {} to {}, not {}", least, most, text));
+  }
+  return int64_t(number);
+}
+
 void OptionGroup::add_flag(const char* names, bool& given, const char* description) {
   app_.add_flag(names, given, description)->group(heading_);
 }
@@ -58,15 +66,6 @@ void OptionGroup::add_number(const char* name, const char* value, double& number
                        : fmt::format("wants a number, {} to {}, not {}", least, most, text));
     }
   });
-}
-
-int64_t OptionGroup::parse_count(const char* name, const std::string& text, int64_t least,
-                                 int64_t most) {
-  const double number = parse_number(name, text);
-  if (number != std::floor(number) || number < double(least) || number > double(most)) {
-    refuse(name, fmt::format("wants a whole number, {} to {}, not {}", least, most, text));
-  }
-  return int64_t(number);
 }
 
 }  // namespace whittle

@@ -22,6 +22,8 @@ namespace whittle {
 std::vector<double> parse_numbers(const char* option, std::string_view text, size_t count);
 /// One finite number.
 double parse_number(const char* option, std::string_view text);
+/// One whole number in an interval.
+int64_t parse_count(const char* option, std::string_view text, int64_t least, int64_t most);
 
 class OptionGroup {
  public:
@@ -63,9 +65,6 @@ class OptionGroup {
   }
 
  private:
-  static int64_t parse_count(const char* name, const std::string& text, int64_t least,
-                             int64_t most);
-
   CLI::App& app_;
   const char* heading_;
 };

@@ -7,8 +7,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
+#include "base/workers.h"
 #include "model/instances.h"
 #include "trace/oracle/boolean_tree.h"
 #include "trace/oracle/crossings.h"
@@ -33,7 +33,7 @@ class OracleTracer final : public Tracer {
         tree_(make_boolean_tree(model)),
         bounds_(bounds(model)),
         coincidence_(bounds_),
-        arena_(threads > 0 ? threads : tbb::task_arena::automatic) {
+        workers_(threads) {
     for (uint32_t leaf = 0; leaf < instances_.size(); ++leaf) {
       ids_.push_back(model.primitives[instances_[leaf].primitive].id);
       if (instances_[leaf].empty) continue;
@@ -65,7 +65,7 @@ class OracleTracer final : public Tracer {
   void for_ranges(size_t count, const Progress& progress, const Work& work) {
     tbb::enumerable_thread_specific<Scratch> scratches([&] { return Scratch(tree_); });
     std::atomic<size_t> done = 0;
-    arena_.execute([&] {
+    workers_.run([&] {
       tbb::parallel_for(tbb::blocked_range<size_t>(0, count), [&](const auto& range) {
         Scratch& scratch = scratches.local();
         for (size_t i = range.begin(); i != range.end(); ++i) work(i, scratch);
@@ -126,7 +126,7 @@ class OracleTracer final : public Tracer {
   BooleanTree tree_;
   Bounds bounds_;
   Coincidence coincidence_;
-  tbb::task_arena arena_;
+  Workers workers_;
   std::vector<uint32_t> ids_;        ///< of the instances
   std::vector<ConvexSolid> solids_;  ///< those instances that are not empty
   std::vector<uint32_t> leaves_;     ///< their indices among the instances
