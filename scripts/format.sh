@@ -8,5 +8,5 @@ need_packages clang-format
 cd "$root"
 mode=(-i)
 if [[ ${1:-} == --check ]]; then mode=(--dry-run --Werror); fi
-find src apps tests benchmarks include -regex '.*\.\(h\|cpp\|inl\)' -print0 2>/dev/null |
+find src apps tests benchmarks include -regex '.*\.\(h\|cpp\)' -print0 2>/dev/null |
   xargs -0 --no-run-if-empty clang-format "${mode[@]}"

@@ -1,1 +1,110 @@
+#include "whittle/renderer.h"
+
 #include <gtest/gtest.h>
+
+#include "io/read.h"
+#include "model/instances.h"
+
+namespace whittle {
+namespace {
+
+Model model_of(const char* text) {
+  Result<Read> read = read_csg(text, "<test>");
+  EXPECT_TRUE(bool(read));
+  return std::move(read->model);
+}
+
+constexpr const char* kPart = "difference() { cube(20, center = true); sphere(12); }";
+
+ViewOptions small_view() {
+  ViewOptions view;
+  view.width = view.height = 24;
+  return view;
+}
+
+Frame frame_of(const Model& model, const RendererSettings& settings) {
+  const Camera camera = camera_for(model, small_view());
+  Result<Renderer> renderer = Renderer::make(model, settings);
+  EXPECT_TRUE(bool(renderer));
+  renderer->prepare(camera);
+  return renderer->trace(camera);
+}
+
+TEST(Renderer, SizesOfPicturesHaveLimits) {
+  for (const auto& [w, h] : {std::pair(1, 1), std::pair(65535, 4096), std::pair(16384, 16384)})
+    EXPECT_TRUE(bool(check_picture_size(w, h))) << w << " x " << h;
+  for (const auto& [w, h] :
+       {std::pair(0, 1), std::pair(1, -1), std::pair(65536, 1), std::pair(16385, 16384)})
+    EXPECT_FALSE(bool(check_picture_size(w, h))) << w << " x " << h;
+}
+
+TEST(Renderer, FramesTheBoundsOfTheSolid) {
+  // The cutter is far larger than what it cuts, and that says nothing.
+  const Model model =
+      model_of("difference() { cube(2, center = true); cylinder(h = 99, r = 0.5); }");
+  const Camera camera = camera_for(model, small_view());
+  // d = (diagonal / 2) / sin(fov / 2), looking at the middle.
+  EXPECT_NEAR(length(camera.eye), std::sqrt(3.0) / std::sin(11.25 / 180 * std::acos(-1.0)), 1e-9);
+}
+
+TEST(Renderer, AutoIsABackendThatIsNamed) {
+  const Model model = model_of(kPart);
+  Result<Renderer> renderer = Renderer::make(model, {});
+  ASSERT_TRUE(bool(renderer));
+  EXPECT_NE(renderer->backend(), Backend::kAuto);
+  renderer->prepare(camera_for(model, small_view()));
+  EXPECT_STREQ(renderer->tracer().name(), name_of(backend_choices(), renderer->backend()));
+}
+
+TEST(Renderer, TheOracleHasNeitherHalfSpacesNorCells) {
+  const Model model = model_of(kPart);
+  Result<Renderer> renderer = Renderer::make(model, {.backend = Backend::kOracle, .subdivide = {}});
+  ASSERT_TRUE(bool(renderer));
+  renderer->prepare(camera_for(model, small_view()));
+  EXPECT_STREQ(renderer->tracer().name(), "oracle");
+  EXPECT_EQ(renderer->scene(), nullptr);
+  EXPECT_EQ(renderer->cells(), nullptr);
+  EXPECT_EQ(renderer->trace_stats().rays, 0u);
+}
+
+TEST(Renderer, StepsCanBeRepeated) {
+  const Model model = model_of(kPart);
+  const Camera camera = camera_for(model, small_view());
+  Result<Renderer> renderer = Renderer::make(model, {});
+  ASSERT_TRUE(bool(renderer));
+  std::vector<Picture> pictures;
+  for (int i = 0; i < 2; ++i) {
+    renderer->prepare(camera);
+    const Frame frame = renderer->trace(camera);
+    EXPECT_EQ(renderer->trace_stats().rays, uint64_t(24 * 24)) << "the tracer is a new one";
+    pictures.push_back(renderer->shade(frame, camera, {}, 4));
+  }
+  EXPECT_EQ(pictures[0].rgba, pictures[1].rgba);
+}
+
+TEST(Renderer, ThePixelThresholdReachesTheCells) {
+  const Model model = model_of(kPart);
+  const Camera camera = camera_for(model, small_view());
+  const auto cells = [&](double threshold) {
+    RendererSettings settings;
+    settings.subdivide.leaf_size = 1;
+    settings.pixel_threshold = threshold;
+    Result<Renderer> renderer = Renderer::make(model, settings);
+    EXPECT_TRUE(bool(renderer));
+    renderer->prepare(camera);
+    return renderer->cells()->cells.size();
+  };
+  EXPECT_EQ(cells(1000), 1u) << "all of the model is smaller";
+  EXPECT_LT(cells(8), cells(2));
+}
+
+TEST(Renderer, AnEmptyModelIsBackgroundWithEveryBackend) {
+  const Model model = model_of("");
+  for (const Backend backend : {Backend::kCpu, Backend::kOracle}) {
+    for (const Hit& hit : frame_of(model, {.backend = backend, .subdivide = {}}).hits)
+      EXPECT_FALSE(hit.hit());
+  }
+}
+
+}  // namespace
+}  // namespace whittle

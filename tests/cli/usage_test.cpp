@@ -1,0 +1,142 @@
+// What the program says about itself and about command lines that are not right: exit code 2.
+#include "program.h"
+
+namespace whittle {
+namespace {
+
+class Usage : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("part.csg", "cube(10);\n");
+  }
+
+  /// Runs `part.csg -o x.png` with more arguments, which must be refused with that message.
+  void expect_refused(std::vector<std::string> arguments, const std::string& message) {
+    arguments.insert(arguments.begin(), {"part.csg", "-o", "x.png"});
+    const Ended refused = run(arguments);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.err, "whittle: " + message + "\nTry 'whittle --help'.\n");
+    EXPECT_EQ(files(), std::vector<std::string>{"part.csg"}) << "a refused run makes nothing";
+  }
+};
+
+TEST_F(Usage, HelpOfEveryCommandTellsUsageExamplesAndExitCodes) {
+  for (const char* command : {"", "info", "compare", "bench", "model"}) {
+    std::vector<std::string> arguments{"--help"};
+    if (*command != '\0') arguments.insert(arguments.begin(), command);
+    const Ended help = run(arguments);
+    EXPECT_EQ(help.exit_code, 0) << command;
+    EXPECT_EQ(help.err, "") << command;
+    for (const char* part : {"Usage: whittle", "Examples:", "Exit codes: 0", "-h,--help"})
+      EXPECT_NE(help.out.find(part), std::string::npos) << command << " says no " << part;
+    EXPECT_EQ(help.out.find(" \n"), std::string::npos) << command << ": blanks at a line's end";
+    size_t column = 0;
+    for (const char c : help.out) {
+      column = c == '\n' ? 0 : column + 1;
+      ASSERT_LE(column, 100u) << command << ": a line too long for a terminal";
+    }
+  }
+}
+
+TEST_F(Usage, TheVersionIsOneLine) {
+  const Ended version = run({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_EQ(version.out.substr(0, 8), "whittle ");
+  EXPECT_EQ(version.out.find('\n'), version.out.size() - 1);
+  EXPECT_EQ(run({"-v"}).out, version.out);
+}
+
+TEST_F(Usage, AFileIsRequired) {
+  const Ended missing = run({});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_EQ(missing.err, "whittle: FILE is required\nTry 'whittle --help'.\n");
+}
+
+TEST_F(Usage, WithoutAnOutputItSaysThatThereIsNoWindow) {
+  const Ended missing = run({"part.csg"});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_EQ(missing.err,
+            "whittle: there is no window yet; give -o FILE.png or -o FILE.exr to make a picture\n");
+}
+
+TEST_F(Usage, TheEndingOfTheOutputMustBeKnown) {
+  const Ended unknown = run({"part.csg", "-o", "x.stl"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_EQ(unknown.err,
+            "whittle: 'x.stl' does not end in .png or .exr, so its format is not known\n");
+  const Ended standard = run({"part.csg", "-o", "-"});
+  EXPECT_EQ(standard.exit_code, 2);
+  EXPECT_EQ(standard.err, "whittle: -o - (standard output) needs --export-format png or exr\n");
+}
+
+TEST_F(Usage, WrongNumbersAreRefused) {
+  expect_refused({"--imgsize", "64"}, "--imgsize: wants 2 numbers, not 1 ('64')");
+  expect_refused({"--imgsize", "64,64,3"}, "--imgsize: wants 2 numbers, not 3 ('64,64,3')");
+  expect_refused({"--imgsize", "64,x"}, "--imgsize: 'x' is not a number");
+  expect_refused({"--imgsize", "64,1.5"}, "--imgsize: wants whole numbers, not 64,1.5");
+  expect_refused({"--imgsize", "0,64"},
+                 "--imgsize: a picture of 0 x 64 pixels is not possible: each side is 1 to 65535, "
+                 "and all together at most 268435456 pixels");
+  expect_refused({"--imgsize", "65535,65535"},
+                 "--imgsize: a picture of 65535 x 65535 pixels is not possible: each side is 1 to "
+                 "65535, and all together at most 268435456 pixels");
+  expect_refused({"--fov", "180"}, "--fov: wants an angle between 0 and 180, not 180");
+  expect_refused({"--aa", "0"}, "--aa: wants a whole number, 1 to 16, not 0");
+  expect_refused({"--threads", "-1"}, "--threads: wants a whole number, 0 to 1024, not -1");
+  expect_refused({"--leaf-size", "0"}, "--leaf-size: wants a whole number, 1 to 1000, not 0");
+  expect_refused({"--pixel-threshold", "-1"},
+                 "--pixel-threshold: wants a number from 0 on, not -1");
+  expect_refused({"--light", "1,2"}, "--light: wants 3 numbers, not 2 ('1,2')");
+  expect_refused({"--light", "1,2,nan"}, "--light: 'nan' is not a number");
+}
+
+TEST_F(Usage, ACameraHasSixOrSevenNumbers) {
+  expect_refused({"--camera", "1,2,3"},
+                 "--camera: Camera setup requires either 7 numbers for Gimbal Camera or 6 numbers "
+                 "for Vector Camera (--camera=1,2,3)");
+}
+
+TEST_F(Usage, UnknownNamesAreAnsweredWithThoseThereAre) {
+  expect_refused({"--style", "x"},
+                 "--style: unknown style 'x'; there are: studio, blinn, openscad");
+  expect_refused({"--backend", "gpu"},
+                 "--backend: unknown backend 'gpu'; there are: auto, cpu, oracle");
+  expect_refused({"--pass", "x"}, "--pass: unknown pass 'x'; there are: color, depth, normal, id");
+  expect_refused({"--curves", "x"},
+                 "--curves: unknown kind of curves 'x'; there are: auto, facets, smooth");
+  expect_refused({"--projection", "x"},
+                 "--projection: unknown projection 'x'; there are: perspective, p, orthogonal, "
+                 "ortho, o");
+  expect_refused({"--split", "x"}, "--split: unknown split rule 'x'; there are: longest, xyz");
+  expect_refused({"--small-cells", "x"},
+                 "--small-cells: unknown fate of small cells 'x'; there are: trace, ignore");
+  expect_refused({"--colorscheme", "Foo"},
+                 "--colorscheme: unknown colour scheme 'Foo'; there are: Cornfield, Metallic, "
+                 "Sunset, Starnight, BeforeDawn, Nature, Daylight Gem, Nocturnal Gem, DeepOcean, "
+                 "Solarized, Tomorrow, Tomorrow Night, ClearSky, Monotone");
+}
+
+TEST_F(Usage, UnknownOptionsAndMoreFilesAreRefused) {
+  expect_refused({"--bogus"}, "The following argument was not expected: --bogus");
+  expect_refused({"other.csg"}, "The following argument was not expected: other.csg");
+}
+
+TEST_F(Usage, EveryCommandRefusesWhatItDoesNotKnow) {
+  for (const char* command : {"info", "compare", "bench", "model"}) {
+    const Ended refused = run({command, "--bogus"});
+    EXPECT_EQ(refused.exit_code, 2) << command;
+    EXPECT_NE(refused.err.find(std::string("Try 'whittle ") + command + " --help'."),
+              std::string::npos)
+        << refused.err;
+  }
+}
+
+TEST_F(Usage, AFileCalledLikeACommandIsReached) {
+  write("info", "cube(10);\n");
+  EXPECT_EQ(run({"./info", "-o", "x.png", "--imgsize", "8,8"}).exit_code, 0);
+  EXPECT_EQ(run({"info", "info"}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace whittle
