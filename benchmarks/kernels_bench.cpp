@@ -25,8 +25,8 @@ std::vector<Box> boxes(const Box& region) {
   std::vector<Box> result(1024);
   for (Box& box : result) {
     const Vec3 size = region.size();
-    box.lo = region.lo + Vec3{unit(random) * size.x, unit(random) * size.y, unit(random) * size.z} *
-                             0.875;
+    box.lo = region.lo +
+             Vec3{unit(random) * size.x, unit(random) * size.y, unit(random) * size.z} * 0.875;
     box.hi = box.lo + size * 0.125;
   }
   return result;
@@ -44,18 +44,18 @@ void classify_half_space(benchmark::State& state) {
 }
 BENCHMARK(classify_half_space);
 
-void roots_along_ray(benchmark::State& state) {
+void root_along_ray(benchmark::State& state) {
   using K = Kernels<double>;
   const Scene scene = cheese(1000);
   const Vec3 direction = normalize(Vec3{0.3, -0.5, 0.8});
   size_t i = 0;
   for (auto _ : state) {
     const HalfSpace& h = scene.half_spaces[i++ % scene.half_spaces.size()];
-    const Vec3 along = K::quadric_along_ray(h.f, Vec3{1, 2, 3} - h.center, direction);
-    benchmark::DoNotOptimize(K::quadratic_roots(along.x, along.y, along.z));
+    const Vec3 f = K::quadric_along_ray(h.f, Vec3{1, 2, 3} - h.center, direction);
+    benchmark::DoNotOptimize(K::quadratic_root(f.x, f.y, f.z, false));
   }
 }
-BENCHMARK(roots_along_ray);
+BENCHMARK(root_along_ray);
 
 void simplify_formula(benchmark::State& state) {
   const Scene scene = cheese(int(state.range(0)));

@@ -1,5 +1,6 @@
 // whittle bench FILE...: what every stage costs, once its picture is known to be right.
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <tbb/info.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstring>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -165,6 +167,8 @@ int measure_apart(const std::string& file, const BenchArguments& a, Json& json) 
   }
   const pid_t child = ::fork();
   if (child == 0) {
+    // An interrupted benchmark does not go on measuring.
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     ::close(ends[0]);
     ::dup2(ends[1], STDOUT_FILENO);
     int code = kExitDone;

@@ -11,7 +11,7 @@
 #include "trace/view.h"
 #include "whittle/renderer.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): CLI11 has named it
 class App;
 }
 

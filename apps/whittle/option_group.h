@@ -9,7 +9,7 @@
 
 #include "whittle/choices.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): CLI11 has named it
 class App;
 }
 

@@ -36,30 +36,24 @@ FN Vec3 quadric_along_ray(Quadric f, Vec3 o, Vec3 d) {
   return make_vec3(dot3(ad, d), dot3(ad, o) + dot3(f.b, d), quadric_value(f, o));
 }
 
-// The signs of f(t) = a t^2 + 2 h t + k. If `crosses`, f changes sign at near_t < far_t (one of them
-// may be infinite); beyond the two f is negative if `outer`, and between them it is the opposite. If
-// not, f has the sign that `outer` tells everywhere. A double root changes no sign.
-struct Roots {
-  Real near_t;
-  Real far_t;
-  Bool crosses;
-  Bool outer;
-};
+// The same for a sphere, diag = (scale, scale, scale), and a unit direction.
+FN Vec3 sphere_along_ray(Real scale, Real c, Vec3 o, Vec3 d) {
+  return make_vec3(scale, scale * dot3(o, d), scale * dot3(o, o) + c);
+}
 
-// The stable form: the root of larger magnitude from the sum of equal signs, the other by k / q,
-// so nothing cancels (Press et al., Numerical Recipes, 5.6.4). With a = 0 the first root is
-// infinite, on the side where f is negative, and the second is the linear equation's.
-FN Roots quadratic_roots(Real a, Real h, Real k) {
+// a t^2 + 2 h t + k.
+FN Real quadratic_value(Real a, Real h, Real k, Real t) { return (a * t + K(2) * h) * t + k; }
+
+// The root of a t^2 + 2 h t + k at which it rises through zero (falls, if not `rising`), where a t +
+// h = +-sqrt(h^2 - a k). The stable form: where the sum -h +- sqrt would cancel, the other root's
+// product rule k / q is used, so no digits are lost (Press et al., Numerical Recipes, 5.6.4). a = 0
+// needs no special case. Meaningless if there is no such root.
+FN Real quadratic_root(Real a, Real h, Real k, Bool rising) {
   Real discriminant = h * h - a * k;
-  Bool crosses = discriminant > K(0);
-  Real s = sqrt(select(crosses, discriminant, K(0)));
-  Real q = -(h + select(h < K(0), -s, s));
-  Bool linear = a == K(0);
-  Real r0 = q / select(linear, K(0), a);  // -0 becomes +0, so the infinity has q's sign
-  Real r1 = k / q;
-  Bool swap = r1 < r0;
-  return make_roots(select(swap, r1, r0), select(swap, r0, r1), crosses,
-                    select(linear, select(crosses, K(1), k), a) < K(0));
+  Real s = sqrt(pmax(discriminant, K(0)));
+  Real w = select(rising, s, -s);  // a t = w - h
+  Bool cancels = h * w > K(0);
+  return select(cancels, k, w - h) / select(cancels, -(h + w), a);
 }
 
 // The range of one term g x + a x^2 over -h <= x <= h: x is the low end, y the high end.

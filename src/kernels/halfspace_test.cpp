@@ -26,54 +26,41 @@ struct Numbers {
   K::Quadric quadric() { return {vec(), vec(), vec(), any()}; }
 };
 
-double sign_at(double a, double h, double k, double t) {
-  return (a * t + 2 * h) * t + k;
-}
-
-TEST(QuadraticRoots, TellTheSignEverywhere) {
+TEST(QuadraticRoot, IsWhereTheSignChanges) {
   Numbers numbers(1);
-  int crossing = 0;
+  int checked = 0;
   for (int i = 0; i < 200000; ++i) {
     const double a = numbers.any(), h = numbers.any(), k = numbers.any();
-    const K::Roots roots = K::quadratic_roots(a, h, k);
-    if (roots.crosses) {
-      ++crossing;
-      ASSERT_LE(roots.near_t, roots.far_t) << a << ' ' << h << ' ' << k;
-    }
-    for (int j = 0; j < 4; ++j) {
-      const double t = numbers.any();
-      const bool between = roots.crosses && roots.near_t < t && t < roots.far_t;
-      const bool inside = between != roots.outer;
-      const double value = sign_at(a, h, k, t);
-      // Rounding blurs the sign next to a root; elsewhere it is certain.
+    if (h * h - a * k <= 1e-12 * (h * h + std::fabs(a * k))) continue;
+    for (const bool rising : {false, true}) {
+      if (a == 0 && (h > 0) != rising) continue;  // a line has one root
+      const double t = K::quadratic_root(a, h, k, rising);
+      const double step = 1e-4 * std::fabs(t);
+      const double before = K::quadratic_value(a, h, k, t - step),
+                   after = K::quadratic_value(a, h, k, t + step);
+      // Rounding blurs the sign where the step is small against the other root.
       const double blur = 1e-13 * (std::fabs(a * t * t) + std::fabs(2 * h * t) + std::fabs(k));
-      const bool certain =
-          std::fabs(value) > blur && std::fabs(h * h - a * k) > 1e-12 * (h * h + std::fabs(a * k));
-      ASSERT_TRUE(!certain || inside == (value < 0)) << a << ' ' << h << ' ' << k << " at " << t;
+      const double to_vertex = a == 0 ? INFINITY : std::fabs(t + h / a);
+      if (std::fabs(before) <= blur || std::fabs(after) <= blur || to_vertex <= step) continue;
+      ++checked;
+      ASSERT_EQ(before < 0, rising) << a << ' ' << h << ' ' << k << " at " << t;
+      ASSERT_EQ(after > 0, rising) << a << ' ' << h << ' ' << k << " at " << t;
     }
   }
-  EXPECT_GT(crossing, 50000);
+  EXPECT_GT(checked, 100000);
 }
 
-TEST(QuadraticRoots, KeepTheirDigitsWhenOneRootIsTiny) {
+TEST(QuadraticRoot, KeepsItsDigitsBesideAHugeOne) {
   // (t - 1e-9)(t - 1e9): the textbook formula loses the small root altogether.
-  const K::Roots roots = K::quadratic_roots(1, -0.5 * (1e9 + 1e-9), 1);
-  EXPECT_NEAR(roots.near_t, 1e-9, 1e-23);
-  EXPECT_NEAR(roots.far_t, 1e9, 1e-5);
+  const double h = -0.5 * (1e9 + 1e-9);
+  EXPECT_NEAR(K::quadratic_root(1, h, 1, false), 1e-9, 1e-23);
+  EXPECT_NEAR(K::quadratic_root(1, h, 1, true), 1e9, 1e-5);
 }
 
-TEST(QuadraticRoots, LinearEquationsHaveOneFiniteRoot) {
+TEST(QuadraticRoot, OfALineIsItsOnlyOne) {
   for (const double zero : {0.0, -0.0}) {
-    const K::Roots rising = K::quadratic_roots(zero, 1, -4);  // 2t - 4: negative before 2
-    EXPECT_TRUE(rising.crosses && !rising.outer);
-    EXPECT_EQ(rising.near_t, -INFINITY);
-    EXPECT_EQ(rising.far_t, 2);
-    const K::Roots falling = K::quadratic_roots(zero, -1, 4);  // 4 - 2t: negative after 2
-    EXPECT_TRUE(falling.crosses && !falling.outer);
-    EXPECT_EQ(falling.near_t, 2);
-    EXPECT_EQ(falling.far_t, INFINITY);
-    EXPECT_TRUE(K::quadratic_roots(zero, 0, -1).outer);
-    EXPECT_FALSE(K::quadratic_roots(zero, 0, 1).outer);
+    EXPECT_EQ(K::quadratic_root(zero, 1, -4, true), 2);
+    EXPECT_EQ(K::quadratic_root(zero, -1, 4, false), 2);
   }
 }
 
@@ -115,7 +102,18 @@ TEST(Quadric, AlongARayIsTheValueOnTheRay) {
     const Vec3 d{numbers.uniform(-1, 1), numbers.uniform(-1, 1), numbers.uniform(-1, 1)};
     const double t = numbers.uniform(-2, 2);
     const Vec3 c = K::quadric_along_ray(f, o, d);
-    ASSERT_NEAR(sign_at(c.x, c.y, c.z, t), K::quadric_value(f, o + d * t), 1e-10);
+    ASSERT_NEAR(K::quadratic_value(c.x, c.y, c.z, t), K::quadric_value(f, o + d * t), 1e-10);
+  }
+}
+
+TEST(Quadric, OfASphereAlongARayNeedsLess) {
+  Numbers numbers(4);
+  for (int i = 0; i < 1000; ++i) {
+    const K::Quadric f{{0.7, 0.7, 0.7}, {}, {}, -numbers.uniform(0, 2)};
+    const Vec3 o{numbers.uniform(-2, 2), numbers.uniform(-2, 2), numbers.uniform(-2, 2)};
+    const Vec3 d = normalize(Vec3{numbers.uniform(-1, 1), numbers.uniform(-1, 1), 0.1});
+    const Vec3 full = K::quadric_along_ray(f, o, d), less = K::sphere_along_ray(0.7, f.c, o, d);
+    ASSERT_LT(length(full - less), 1e-13);
   }
 }
 

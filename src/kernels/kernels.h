@@ -25,11 +25,6 @@ struct Kernels {
   static R dot3(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
   static Vec3 make_vec3(R x, R y, R z) { return {x, y, z}; }
   static Vec2 make_vec2(R x, R y) { return {x, y}; }
-  static auto make_roots(R near_t, R far_t, bool crosses, bool inside) {
-    return Roots{near_t, far_t, crosses, inside};
-  }
-
-  struct Roots;
 
 #define FN static inline
 #define K(x) Real(x)

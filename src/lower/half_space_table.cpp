@@ -47,8 +47,8 @@ HalfSpaceTable::Fingerprint HalfSpaceTable::fingerprint(const HalfSpace& h) cons
 
 bool HalfSpaceTable::same(const HalfSpace& known, const HalfSpace& h, double extent,
                           bool complement) const {
-  if (known.plane != h.plane) return false;
-  if (h.plane) {
+  if (known.is_plane() != h.is_plane()) return false;
+  if (h.is_plane()) {
     // b is half the unit normal.
     const Vec3 n = known.f.b * 2.0, m = h.f.b * (complement ? -2.0 : 2.0);
     return length(n - m) * radius_ <= tolerance_ &&
@@ -89,7 +89,7 @@ Literal HalfSpaceTable::add(const HalfSpace& h, double extent) {
   const Fingerprint at = fingerprint(h);
   if (const int64_t i = find(h, at, extent, false); i >= 0) return Literal(i) * 2;
   // Only planes come in complementary pairs: no primitive is the outside of a quadric.
-  if (h.plane)
+  if (h.is_plane())
     if (const int64_t i = find(h, at, extent, true); i >= 0) return Literal(i) * 2 + 1;
   const uint32_t number = uint32_t(half_spaces_.size());
   half_spaces_.push_back(h);

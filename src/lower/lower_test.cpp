@@ -51,7 +51,7 @@ TEST(Lower, CurvedWallsShareAQuadric) {
       "difference(){cylinder(r=5,h=10); translate([0,0,4]) cylinder(r=5,h=20);}"
       "rotate([0,0,33]) translate([0,0,-3]) cylinder(r=5,h=1);");
   int quadrics = 0;
-  for (const HalfSpace& h : scene.half_spaces) quadrics += !h.plane;
+  for (const HalfSpace& h : scene.half_spaces) quadrics += !h.is_plane();
   EXPECT_EQ(quadrics, 1);
 }
 
@@ -64,7 +64,7 @@ TEST(HalfSpaceTable, NearlyEqualPlanesDoNotChain) {
   const double tolerance = 1e-6;
   HalfSpaceTable table(1, tolerance);
   for (int i = 0; i < 100; ++i)
-    table.add({{0, 0, i * 0.75 * tolerance}, {{}, {}, {0, 0, 0.5}, 0}, true}, 1);
+    table.add({{0, 0, i * 0.75 * tolerance}, {{}, {}, {0, 0, 0.5}, 0}, SurfaceKind::kPlane}, 1);
   // Each representative takes in the next one and no more.
   EXPECT_EQ(table.take().size(), 50u);
 }
@@ -76,7 +76,7 @@ TEST(HalfSpaceTable, FindsEqualsAcrossBucketBorders) {
   for (int i = 0; i < 5000; ++i) {
     const HalfSpace h{{unit(random), unit(random), unit(random)},
                       {{}, {}, normalize(Vec3{unit(random), unit(random), unit(random)}) * 0.5, 0},
-                      true};
+                      SurfaceKind::kPlane};
     HalfSpace moved = h;
     moved.center += moved.f.b * (1.9e-6 * unit(random));
     HalfSpace turned = moved;

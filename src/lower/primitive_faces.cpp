@@ -21,11 +21,13 @@ void add_square(K::Quadric& f, Vec3 r, double weight) {
 HalfSpace quadric_half_space(K::Quadric f, Vec3 center, double largest_eigenvalue) {
   const double scale = 1 / (2 * std::sqrt(largest_eigenvalue * std::fabs(f.c)));
   f.diag *= scale, f.off *= scale, f.b *= scale, f.c *= scale;
-  return {center, f, false};
+  const bool sphere =
+      f.diag.x == f.diag.y && f.diag.y == f.diag.z && f.off == Vec3{} && f.b == Vec3{};
+  return {center, f, sphere ? SurfaceKind::kSphere : SurfaceKind::kQuadric};
 }
 
 HalfSpace plane_half_space(Vec3 normal, Vec3 point) {
-  return {point, {{}, {}, normalize(normal) * 0.5, 0}, true};
+  return {point, {{}, {}, normalize(normal) * 0.5, 0}, SurfaceKind::kPlane};
 }
 
 bool is_finite(const HalfSpace& h) {

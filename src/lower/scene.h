@@ -14,12 +14,20 @@
 
 namespace whittle {
 
+enum class SurfaceKind : uint8_t {
+  kPlane,    ///< no second degree
+  kSphere,   ///< f.diag all equal, f.off and f.b zero
+  kQuadric,  ///< any other
+};
+
 /// {p : f(p - center) <= 0}, scaled so that |f| is about the distance near the surface (the
 /// gradient there is at most 1, and 1 where the surface is steepest). Planes have no second degree.
 struct HalfSpace {
   Vec3 center;
   Kernels<double>::Quadric f;
-  bool plane = false;
+  SurfaceKind kind = SurfaceKind::kQuadric;
+
+  bool is_plane() const { return kind == SurfaceKind::kPlane; }
 };
 
 /// One face of a primitive: which half-space, and whose.

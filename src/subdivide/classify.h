@@ -26,7 +26,7 @@ inline Side classify(const HalfSpace& h, const CellBox& cell) {
   using K = Kernels<double>;
   const Vec3 m = cell.center - h.center;
   double low, high;
-  if (h.plane) {
+  if (h.is_plane()) {
     const double value = 2 * dot(h.f.b, m);
     const double spread = 2 * dot(abs(h.f.b), cell.half);
     low = value - spread, high = value + spread;

@@ -85,4 +85,6 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace whittle
 
-int main(int argc, char** argv) { return whittle::run(argc, argv); }
+int main(int argc, char** argv) {
+  return whittle::run(argc, argv);
+}

@@ -1,5 +1,5 @@
-// The cpu backend sees what the oracle sees: over the zoo, the examples and random trees, from three
-// views each (one inside the model), at several leaf sizes.
+// The cpu backend sees what the oracle sees: over the zoo, the examples and random trees, from
+// three views each (one inside the model), at several leaf sizes.
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -10,6 +10,7 @@
 #include "base/result.h"
 #include "base/workers.h"
 #include "trace/cpu/solve.h"
+#include "trace/pixel_rect.h"
 
 namespace whittle {
 namespace {
@@ -25,23 +26,26 @@ class RayWalker {
       : scene_(scene), tree_(tree), solver_(scene, tree) {}
 
   TraceStats stats;
+  uint64_t solver_disagreements() const { return solver_.disagreements; }
 
   Hit trace(const Ray& world_ray) {
     ++stats.rays;
     // Start next to the solid's middle: far eyes would eat the digits.
     const Vec3 from = world_ray.origin - scene_.origin;
     const double shift = -dot(from, world_ray.direction);
-    const LocalRay ray{from + world_ray.direction * shift, world_ray.direction};
+    const Vec3 d = world_ray.direction;
+    const LocalRay ray{from + d * shift, d};
+    const Vec3 inverse{1 / d.x, 1 / d.y, 1 / d.z};
 
     Interval span{world_ray.t_min - shift, kInfinity};
     for (int axis = 0; axis < 3; ++axis)
-      if (!clip(ray, axis, tree_.region.lo[axis], tree_.region.hi[axis], span)) return {};
+      if (!clip(ray, inverse[axis], axis, span)) return {};
     // Outside the region of a bounded solid there is nothing; a ray that starts inside of it, or
     // an unbounded solid, tells only at its first cell.
     const bool starts_outside = span.t0 > world_ray.t_min - shift;
     Inside inside = starts_outside && scene_.bounded ? Inside::kNo : Inside::kUnknown;
     Change change;
-    if (!walk(ray, span, inside, change)) return {};
+    if (!walk(ray, inverse, span, inside, change)) return {};
     return {float(change.t + shift),
             change.id,
             {float(change.normal.x), float(change.normal.y), float(change.normal.z)}};
@@ -56,19 +60,17 @@ class RayWalker {
     Interval span;
   };
 
-  static bool clip(const LocalRay& ray, int axis, double lo, double hi, Interval& span) {
-    const double o = ray.origin[axis], d = ray.direction[axis];
-    if (d == 0) return lo <= o && o <= hi;
-    double a = (lo - o) / d, b = (hi - o) / d;
-    if (a > b) std::swap(a, b);
-    span.t0 = std::max(span.t0, a);
-    span.t1 = std::min(span.t1, b);
+  bool clip(const LocalRay& ray, double inverse, int axis, Interval& span) const {
+    const double lo = tree_.region.lo[axis], hi = tree_.region.hi[axis], o = ray.origin[axis];
+    if (ray.direction[axis] == 0) return lo <= o && o <= hi;
+    const double a = (lo - o) * inverse, b = (hi - o) * inverse;
+    span.t0 = std::max(span.t0, std::min(a, b));
+    span.t1 = std::min(span.t1, std::max(a, b));
     return span.t0 <= span.t1;
   }
 
   /// Front to back through the cells; neighbours share the split's exact t.
-  bool walk(const LocalRay& ray, Interval span, Inside inside, Change& change) {
-    const Vec3 inverse{1 / ray.direction.x, 1 / ray.direction.y, 1 / ray.direction.z};
+  bool walk(const LocalRay& ray, Vec3 inverse, Interval span, Inside inside, Change& change) {
     Later later[kMaxDepth];
     uint32_t waiting = 0;
     uint32_t at = 0;
@@ -125,7 +127,8 @@ class RayWalker {
 class CpuTracerImpl final : public CpuTracer {
  public:
   CpuTracerImpl(const Scene& scene, const CellTree& tree, int threads)
-      : tree_(tree),
+      : scene_(scene),
+        tree_(tree),
         workers_(threads),
         walkers_([&scene, &tree] { return RayWalker(scene, tree); }) {
     WHITTLE_CHECK(tree.stats.depth < kMaxDepth);
@@ -136,14 +139,16 @@ class CpuTracerImpl final : public CpuTracer {
   Frame render(const Camera& camera, const Progress& progress) override {
     Frame frame(camera.width, camera.height);
     if (tree_.region.is_empty()) return frame;
-    const int columns = (camera.width + kTile - 1) / kTile,
-              rows = (camera.height + kTile - 1) / kTile;
+    const PixelRect rect = pixels_covering(camera, world_region());
+    rays_beside_ += uint64_t(camera.width) * camera.height - uint64_t(rect.width()) * rect.height();
+    const int columns = (rect.width() + kTile - 1) / kTile,
+              rows = (rect.height() + kTile - 1) / kTile;
     std::atomic<int> done = 0;
     workers_.run([&] {
       tbb::parallel_for(0, columns * rows, [&](int tile) {
         RayWalker& walker = walkers_.local();
-        const int x0 = tile % columns * kTile, y0 = tile / columns * kTile;
-        const int x1 = std::min(x0 + kTile, camera.width), y1 = std::min(y0 + kTile, camera.height);
+        const int x0 = rect.x0 + tile % columns * kTile, y0 = rect.y0 + tile / columns * kTile;
+        const int x1 = std::min(x0 + kTile, rect.x1), y1 = std::min(y0 + kTile, rect.y1);
         for (int y = y0; y < y1; ++y)
           for (int x = x0; x < x1; ++x) frame.at(x, y) = walker.trace(camera.ray(x + 0.5, y + 0.5));
         const int now = ++done;
@@ -171,18 +176,25 @@ class CpuTracerImpl final : public CpuTracer {
 
   TraceStats stats() const override {
     TraceStats sum;
+    sum.rays = rays_beside_;
     for (const RayWalker& walker : walkers_) {
       sum.rays += walker.stats.rays;
       sum.cells += walker.stats.cells;
       sum.leaves += walker.stats.leaves;
       sum.literals += walker.stats.literals;
-      sum.disagreements += walker.stats.disagreements;
+      sum.disagreements += walker.stats.disagreements + walker.solver_disagreements();
     }
     return sum;
   }
 
  private:
+  Box world_region() const {
+    return {tree_.region.lo + scene_.origin, tree_.region.hi + scene_.origin};
+  }
+
+  const Scene& scene_;
   const CellTree& tree_;
+  uint64_t rays_beside_ = 0;  ///< rays of pixels that cannot see the region
   Workers workers_;
   tbb::enumerable_thread_specific<RayWalker> walkers_;
 };

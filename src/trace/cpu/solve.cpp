@@ -1,5 +1,7 @@
 #include "trace/cpu/solve.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/result.h"
@@ -14,14 +16,22 @@ bool literal_value(const LeafLiteral& literal, bool is_inside) {
   return is_inside != bool(literal.literal & 1);
 }
 
+/// f along the ray as x t^2 + 2 y t + z.
+Vec3 along_ray(const HalfSpace& h, const LocalRay& ray) {
+  const Vec3 o = ray.origin - h.center;
+  switch (h.kind) {
+    case SurfaceKind::kPlane:
+      return {0, dot(h.f.b, ray.direction), 2 * dot(h.f.b, o)};
+    case SurfaceKind::kSphere:
+      return K::sphere_along_ray(h.f.diag.x, h.f.c, o, ray.direction);
+    default:
+      return K::quadric_along_ray(h.f, o, ray.direction);
+  }
+}
+
 }  // namespace
 
-void LeafSolver::add_crossing(double t, double t0, double t1, uint32_t literal) {
-  if (t <= t0) {
-    if (t > latest_.t) latest_ = {t, literal};
-    return;
-  }
-  if (!(t <= t1)) return;
+void LeafSolver::add_crossing(double t, uint32_t literal) {
   // Insertion keeps the list sorted; it is short, and equal times stay in the literals' order.
   size_t at = crossings_.size();
   crossings_.push_back({t, literal});
@@ -29,33 +39,43 @@ void LeafSolver::add_crossing(double t, double t0, double t1, uint32_t literal) 
   crossings_[at] = {t, literal};
 }
 
-void LeafSolver::cross(std::span<const LeafLiteral> literals, const LocalRay& ray, double t0,
-                       double t1) {
+Inside LeafSolver::cross(CellKind kind, std::span<const LeafLiteral> literals, const LocalRay& ray,
+                         double t0, double t1) {
   crossings_.clear();
   is_inside_.resize(literals.size());
-  latest_ = {-std::numeric_limits<double>::infinity(), 0};
+  nearest_ = {t0, 0};
+  double nearest = std::numeric_limits<double>::infinity();
   for (uint32_t i = 0; i < literals.size(); ++i) {
     const HalfSpace& h = scene_.half_spaces[literals[i].literal >> 1];
-    const Vec3 o = ray.origin - h.center;
-    if (h.plane) {
-      const double slope = dot(h.f.b, ray.direction), start = dot(h.f.b, o);
-      if (slope == 0) {
-        is_inside_[i] = start <= 0;
-        continue;
-      }
-      const double t = -start / slope;
-      is_inside_[i] = (slope > 0) == (t0 < t);
-      add_crossing(t, t0, t1, i);
-    } else {
-      const Vec3 along = K::quadric_along_ray(h.f, o, ray.direction);
-      const K::Roots roots = K::quadratic_roots(along.x, along.y, along.z);
-      is_inside_[i] = roots.outer;
-      if (!roots.crosses) continue;
-      is_inside_[i] = roots.outer != (roots.near_t <= t0 && t0 < roots.far_t);
-      add_crossing(roots.near_t, t0, t1, i);
-      add_crossing(roots.far_t, t0, t1, i);
+    const Vec3 f = along_ray(h, ray);
+    const auto root = [&](bool rising) {
+      // The signs say that it is in (t0, t1]; rounding may not.
+      return std::min(std::max(K::quadratic_root(f.x, f.y, f.z, rising), t0), t1);
+    };
+    // Neighbouring cells evaluate the same numbers at the t they share, so each change of sign is
+    // found in one of them, and in one only.
+    const double f0 = K::quadratic_value(f.x, f.y, f.z, t0),
+                 f1 = K::quadratic_value(f.x, f.y, f.z, t1);
+    const bool inside0 = f0 <= 0, inside1 = f1 <= 0;
+    is_inside_[i] = inside0;
+    if (std::fabs(f0) < nearest) nearest = std::fabs(f0), nearest_.literal = i;
+    if (inside0 != inside1) {
+      add_crossing(root(inside0), i);
+      continue;
     }
+    // In and out again, or out and in: only if f turns back between, and goes beyond zero there.
+    const double bend = inside0 ? -f.x : f.x;
+    const double turn0 = f.x * t0 + f.y, turn1 = f.x * t1 + f.y;
+    if (bend > 0 && (turn0 < 0) != (turn1 < 0) && f.y * f.y > f.x * f.z) {
+      add_crossing(root(inside0), i);
+      add_crossing(root(!inside0), i);
+      continue;
+    }
+    const bool value = literal_value(literals[i], inside0);
+    if (kind == CellKind::kConjunction && !value) return Inside::kNo;
+    if (kind == CellKind::kDisjunction && value) return Inside::kYes;
   }
+  return Inside::kUnknown;
 }
 
 void LeafSolver::start(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals) {
@@ -103,13 +123,17 @@ bool LeafSolver::first_change(CellKind kind, const Leaf& leaf, const LocalRay& r
                               double t1, Inside& inside, Change& change) {
   const std::span<const LeafLiteral> literals(&tree_.literals[leaf.first_literal],
                                               leaf.literal_count);
-  cross(literals, ray, t0, t1);
+  const Inside settled = cross(kind, literals, ray, t0, t1);
+  if (settled != Inside::kUnknown && (settled == inside || inside == Inside::kUnknown)) {
+    inside = settled;
+    return false;
+  }
   start(kind, leaf, literals);
   bool solid = value(kind, leaf, literals);
-  if (inside != Inside::kUnknown && solid != (inside == Inside::kYes) &&
-      latest_.t > -std::numeric_limits<double>::infinity()) {
-    // The change is on the cell's side, and the neighbour's rounding put it on ours.
-    change = describe(leaf, literals, ray, latest_.t, {&latest_, 1}, solid);
+  if (inside != Inside::kUnknown && solid != (inside == Inside::kYes)) {
+    // The neighbour did not see the change that brought us here; make it now.
+    ++disagreements;
+    change = describe(leaf, literals, ray, t0, {&nearest_, 1}, solid);
     return true;
   }
   for (size_t i = 0; i < crossings_.size();) {

@@ -33,13 +33,19 @@ class LeafSolver {
   bool first_change(CellKind kind, const Leaf& leaf, const LocalRay& ray, double t0, double t1,
                     Inside& inside, Change& change);
 
+  /// Times that a leaf differed at t0 from what its neighbour had said.
+  uint64_t disagreements = 0;
+
  private:
   struct Crossing {
     double t;
     uint32_t literal;
   };
-  void cross(std::span<const LeafLiteral> literals, const LocalRay& ray, double t0, double t1);
-  void add_crossing(double t, double t0, double t1, uint32_t literal);
+  /// Lists the crossings in (t0, t1] and the literals' values at t0. Returns the solid's value if
+  /// one literal settles it along the whole way.
+  Inside cross(CellKind kind, std::span<const LeafLiteral> literals, const LocalRay& ray, double t0,
+               double t1);
+  void add_crossing(double t, uint32_t literal);
   void start(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals);
   void flip(CellKind kind, std::span<const LeafLiteral> literals, uint32_t literal);
   bool value(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals) const;
@@ -53,7 +59,7 @@ class LeafSolver {
   const CellTree& tree_;
   std::vector<uint8_t> is_inside_;   ///< by literal: inside the half-space itself, at this point
   std::vector<Crossing> crossings_;  ///< in (t0, t1], sorted
-  Crossing latest_{};                ///< the last crossing at or before t0
+  Crossing nearest_{};               ///< the literal whose surface is nearest to the point at t0
   uint64_t state_ = 0;               ///< kTable: the bits of is_inside_
   uint32_t count_ = 0;               ///< conjunction, disjunction: literals that are true
 };
