@@ -56,6 +56,18 @@ FN Real quadratic_root(Real a, Real h, Real k, Bool rising) {
   return select(cancels, k, w - h) / select(cancels, -(h + w), a);
 }
 
+// Bounds of a sphere's f over the box with centre m and half size h: exact (from the box's nearest
+// and farthest point), widened as in quadric_range.
+FN Vec2 sphere_range(Real scale, Real c, Vec3 m, Vec3 h, Real slack) {
+  Vec3 a = make_vec3(fabs_(m.x), fabs_(m.y), fabs_(m.z));
+  Vec3 far_point = make_vec3(a.x + h.x, a.y + h.y, a.z + h.z);
+  Vec3 near_point =
+      make_vec3(pmax(a.x - h.x, K(0)), pmax(a.y - h.y, K(0)), pmax(a.z - h.z, K(0)));
+  Real high = scale * dot3(far_point, far_point);
+  Real w = slack * (high + fabs_(c));
+  return make_vec2(scale * dot3(near_point, near_point) + c - w, high + c + w);
+}
+
 // The range of one term g x + a x^2 over -h <= x <= h: x is the low end, y the high end.
 FN Vec2 axis_range(Real g, Real a, Real h) {
   Real low_end = a * h * h - g * h;

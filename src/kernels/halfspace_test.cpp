@@ -84,6 +84,25 @@ TEST(Quadric, RangeHoldsEveryValueInTheBox) {
   }
 }
 
+TEST(Quadric, RangeOfASphereIsExactAndHoldsEveryValue) {
+  Numbers numbers(5);
+  for (int i = 0; i < 50000; ++i) {
+    const double scale = std::fabs(numbers.any()), c = -std::fabs(numbers.any());
+    const K::Quadric f{{scale, scale, scale}, {}, {}, c};
+    const Vec3 m = numbers.vec(), h = abs(numbers.vec());
+    const K::Vec2 range = K::sphere_range(scale, c, m, h, 1e-14),
+                  general = K::quadric_range(f, m, h, 1e-14);
+    ASSERT_GE(range.x, general.x - 1e-12 * std::fabs(general.x));
+    ASSERT_LE(range.y, general.y + 1e-12 * std::fabs(general.y));
+    for (int j = 0; j < 4; ++j) {
+      const auto weight = [&] { return numbers.engine() % 2 ? numbers.uniform(-1, 1) : 1.0; };
+      const Vec3 p{m.x + h.x * weight(), m.y + h.y * weight(), m.z + h.z * weight()};
+      ASSERT_LE(range.x, K::quadric_value(f, p));
+      ASSERT_GE(range.y, K::quadric_value(f, p));
+    }
+  }
+}
+
 TEST(Quadric, RangeIsTightForSpheres) {
   const K::Quadric sphere{{1, 1, 1}, {}, {}, -1};
   const K::Vec2 range = K::quadric_range(sphere, {0.25, 0, 0}, {0.5, 0.5, 0.5}, 0);

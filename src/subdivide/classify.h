@@ -31,7 +31,9 @@ inline Side classify(const HalfSpace& h, const CellBox& cell) {
     const double spread = 2 * dot(abs(h.f.b), cell.half);
     low = value - spread, high = value + spread;
   } else {
-    const K::Vec2 range = K::quadric_range(h.f, m, cell.half, kRoundingSlack);
+    const K::Vec2 range = h.kind == SurfaceKind::kSphere
+                              ? K::sphere_range(h.f.diag.x, h.f.c, m, cell.half, kRoundingSlack)
+                              : K::quadric_range(h.f, m, cell.half, kRoundingSlack);
     low = range.x, high = range.y;
   }
   // Written so that a NaN crosses.

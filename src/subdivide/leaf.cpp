@@ -49,8 +49,8 @@ void LeafAnalysis::analyse(std::span<const Token> formula) {
     last_unit = face.unit;
     half_spaces_.push_back({face.literal >> 1, face.unit + 1});
   }
-  std::stable_sort(half_spaces_.begin(), half_spaces_.end(),
-                   [](const Used& a, const Used& b) { return a.half_space < b.half_space; });
+  std::sort(half_spaces_.begin(), half_spaces_.end(),
+            [](const Used& a, const Used& b) { return a.half_space < b.half_space; });
   size_t kept = 0;
   for (const Used& used : half_spaces_) {
     if (kept > 0 && half_spaces_[kept - 1].half_space == used.half_space)
