@@ -1,6 +1,7 @@
 # Every outside library, its Debian package, and why it is here.
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)             # libtbb-dev: threads over tiles and cells
+find_package(hwy REQUIRED)             # libhwy-dev: vector lanes, chosen at run time
 find_package(CLI11 REQUIRED)           # libcli11-dev: the command line
 find_package(fmt REQUIRED)             # libfmt-dev: text
 find_package(nlohmann_json REQUIRED)   # nlohmann-json3-dev: machine-readable output

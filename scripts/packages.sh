@@ -7,6 +7,7 @@ build_packages=(
   cmake               # configures
   ninja-build         # builds
   libtbb-dev          # threads over tiles and cells
+  libhwy-dev          # vector lanes, chosen at run time
   libcli11-dev        # the command line
   libfmt-dev          # text
   nlohmann-json3-dev  # machine-readable output

@@ -78,23 +78,14 @@ void add_loading_options(CLI::App& app, Loading& loading) {
 }
 
 Status say_warnings(const Read& read, const Loading& loading) {
-  const bool refused = loading.strict && read.unsupported;
-  std::string why;
-  for (const std::string& warning : read.warnings) {
-    if (refused && why.empty() && warning.find(" supported") != std::string::npos) {
-      why = warning;
-    } else if (!loading.quiet) {
-      say(warning);
-    }
+  if (loading.strict && read.unsupported) {
+    return Error{ErrorKind::kInput,
+                 message_at(read.model.file, read.unsupported->where,
+                            fmt::format("error: {} (--strict)", read.unsupported->message))};
   }
-  if (!refused) return Done{};
-  constexpr std::string_view kMark = ": warning: ";
-  if (const size_t at = why.find(kMark); at != std::string::npos) {
-    why.replace(at, kMark.size(), ": error: ");
-  } else {
-    why = fmt::format("{}: error: not everything in it is supported", read.model.file);
-  }
-  return Error{ErrorKind::kInput, why + " (--strict)"};
+  if (loading.quiet) return Done{};
+  for (const std::string& warning : read.warnings) say(warning);
+  return Done{};
 }
 
 Result<Read> load(const std::string& file, const Loading& loading) {

@@ -36,7 +36,7 @@ struct Loading {
   bool quiet = false;
 };
 void add_loading_options(CLI::App& app, Loading& loading);
-/// Says the warnings; with `strict`, what is not supported is an error instead.
+/// Says the warnings; or with `strict` and anything that is not supported, the error for that.
 Status say_warnings(const Read& read, const Loading& loading);
 /// Reads a file, shows the progress, and says its warnings.
 Result<Read> load(const std::string& file, const Loading& loading);

@@ -46,7 +46,7 @@ T length(Vec3T<T> a) {
 template <class T>
 Vec3T<T> normalize(Vec3T<T> a) {
   const T l = length(a);
-  return l > T(0) ? a / l : a;
+  return l > T(0) ? a * (T(1) / l) : a;
 }
 /// Componentwise minimum.
 template <class T>

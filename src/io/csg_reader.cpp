@@ -69,7 +69,7 @@ class CsgReader {
       return Error{ErrorKind::kInput, message_at(model_.file, lexer_.mistake()->where,
                                                  "error: " + lexer_.mistake()->message)};
     }
-    return Read{std::move(model_), warnings_.take(), unsupported_};
+    return Read{std::move(model_), warnings_.take(), std::move(unsupported_)};
   }
 
  private:
@@ -90,6 +90,13 @@ class CsgReader {
 
   bool finish();
 
+  /// Warns of what is not understood, and of what is done instead.
+  void warn_unsupported(SourceLocation where, const std::string& what, std::string_view instead) {
+    const std::string message = fmt::format("{}, {}", what, instead);
+    warnings_.add(message, where, message);
+    if (!unsupported_) unsupported_ = Unsupported{where, what};
+  }
+
   bool expected(std::string_view what) {
     lexer_.peek();
     const SourceLocation where = lexer_.location();
@@ -100,7 +107,7 @@ class CsgReader {
   CsgLexer lexer_;
   Warnings warnings_;
   Model model_;
-  bool unsupported_ = false;
+  std::optional<Unsupported> unsupported_;
   uint32_t root_ = kNone;  ///< the node marked with `!`
   Constants constants_;
   std::vector<OpenStatement> stack_;
@@ -320,12 +327,9 @@ bool CsgReader::set_meaning(const Statement& statement, std::string_view name, u
     }
     case Meaning::kUnsupportedGroup:
     case Meaning::kUnsupportedLeaf: {
-      const std::string message =
-          fmt::format("{} is not supported yet, {}", quote(name),
-                      is_leaf(statement.type->meaning) ? "nothing is shown for it"
-                                                       : "shown as the union of its children");
-      warnings_.add(message, statement.where, message);
-      unsupported_ = true;
+      warn_unsupported(statement.where, fmt::format("{} is not supported yet", quote(name)),
+                       is_leaf(statement.type->meaning) ? "nothing is shown for it"
+                                                        : "shown as the union of its children");
       return true;
     }
     default:
@@ -390,23 +394,17 @@ bool CsgReader::read_assignment(std::string_view name, SourceLocation where) {
   if (lexer_.peek() != ';') return expected("';'");
   lexer_.advance();
   if (stack_.size() > 1) {
-    constexpr std::string_view kMessage =
-        "an assignment inside of a statement is not supported "
-        "yet, it is ignored";
     if (stack_.back().single) return lexer_.fail(where, "expected a statement, not an assignment");
     if (!stack_.back().drops_children) {
-      warnings_.add(kMessage, where, kMessage);
-      unsupported_ = true;
+      warn_unsupported(where, "an assignment inside of a statement is not supported yet",
+                       "it is ignored");
     }
     return true;
   }
   const Value& value = arguments_.values.front();
   if (!constants_.assign(name, value)) {
-    constexpr std::string_view kMessage =
-        "a name is assigned after it was used, where OpenSCAD "
-        "would use this value too";
-    warnings_.add(kMessage, where, kMessage);
-    unsupported_ = true;
+    warn_unsupported(where, "a name is assigned after it was used",
+                     "where OpenSCAD would use this value too");
   }
   if (!scopes_[0].set(name, value)) assign_view(name, value, where);
   return true;

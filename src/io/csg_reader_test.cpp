@@ -162,7 +162,10 @@ TEST(CsgReader, WhatIsNotSupportedIsNamedAndShownAsItsChildren) {
   const Read read =
       read_good("\nhull() { cube(); sphere(); }\n linear_extrude(height = 3) circle(2);");
   EXPECT_EQ(tree(read.model), "U(U(c1 s2))");
-  EXPECT_TRUE(read.unsupported);
+  ASSERT_TRUE(read.unsupported);
+  EXPECT_EQ(read.unsupported->message, "'hull' is not supported yet") << "the first one";
+  EXPECT_EQ(read.unsupported->where.line, 2u);
+  EXPECT_EQ(read.unsupported->where.column, 1u);
   ASSERT_EQ(read.warnings.size(), 3u);
   EXPECT_EQ(read.warnings[0],
             "t.csg:2:1: warning: 'hull' is not supported yet, shown as the union of its children");

@@ -112,7 +112,7 @@ TEST(Generate, RandomTreesHoldEveryOperationAndEveryPrimitive) {
 }
 
 TEST(Generate, RandomTreesAreAsLargeAsAskedAndReadWithoutComplaint) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const int n = *rc::gen::inRange(1, 80);
     const auto seed = *rc::gen::arbitrary<uint64_t>();
     const Result<std::string> text = generate_model("random", n, seed);
@@ -121,7 +121,7 @@ TEST(Generate, RandomTreesAreAsLargeAsAskedAndReadWithoutComplaint) {
     RC_ASSERT(bool(read));
     RC_ASSERT(read->warnings.empty());
     RC_ASSERT(read->model.primitives.size() == size_t(n));
-  });
+  }));
 }
 
 TEST(Generate, SeedsDecide) {

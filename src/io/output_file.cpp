@@ -7,9 +7,10 @@
 
 #include <atomic>
 #include <cerrno>
-#include <cstdlib>
+#include <climits>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 namespace whittle {
 namespace {
@@ -19,12 +20,28 @@ namespace {
 constexpr int kMostAttempts = 1000;
 std::atomic<unsigned> next_number = 0;
 
-std::string without_links(const std::string& path) {
-  char* const resolved = ::realpath(path.c_str(), nullptr);
-  if (!resolved) return path;
-  std::string result = resolved;
-  std::free(resolved);
-  return result;
+/// The path that symbolic links lead to, also where nothing is there yet; or the error number.
+std::variant<std::string, int> without_links(std::string path) {
+  constexpr int kMostLinks = 40;  // as many as Linux follows
+  for (int links = 0; links <= kMostLinks; ++links) {
+    char next[PATH_MAX];
+    const ssize_t size = ::readlink(path.c_str(), next, sizeof next);
+    if (size < 0) return path;
+    if (size == sizeof next) return ENAMETOOLONG;
+    const std::string_view link(next, static_cast<size_t>(size));
+    if (link.starts_with('/')) path.clear();
+    // rfind gives npos where there is no folder, and npos + 1 is 0.
+    path.resize(path.rfind('/') + 1);
+    path += link;
+  }
+  return ELOOP;
+}
+
+/// False for a file that is open but has lost its name, which /dev/fd can still reach.
+bool is_name_of(const std::string& path, const struct stat& file) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && status.st_dev == file.st_dev &&
+         status.st_ino == file.st_ino;
 }
 
 }  // namespace
@@ -37,18 +54,20 @@ Error OutputFile::system_error(int reason) const {
 Result<OutputFile> OutputFile::create(const std::string& target) {
   OutputFile file;
   file.name_ = target;
-  file.target_ = target;
+  std::variant<std::string, int> resolved = without_links(target);
+  if (const int* const reason = std::get_if<int>(&resolved)) return file.system_error(*reason);
+  file.target_ = std::get<std::string>(std::move(resolved));
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
-  if (exists && !S_ISREG(status.st_mode)) {
-    file.descriptor_ = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+  if (exists && !(S_ISREG(status.st_mode) && is_name_of(file.target_, status))) {
+    file.target_ = target;
+    file.descriptor_ = ::open(target.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
     if (file.descriptor_ < 0) return file.system_error(errno);
     return file;
   }
   if (exists) {
     // Renaming would replace a file that its owner has made read-only.
     if (::access(target.c_str(), W_OK) != 0) return file.system_error(errno);
-    file.target_ = without_links(target);
   }
   const size_t slash = file.target_.rfind('/');
   const std::string folder =

@@ -20,7 +20,7 @@ namespace whittle {
 class OutputFile {
  public:
   /// Opens for writing. A target that exists must be writable and keeps its permissions; where it
-  /// is a symbolic link, the file that the link leads to is replaced.
+  /// is a symbolic link, the file that the link leads to is replaced, or made if it is not there.
   static Result<OutputFile> create(const std::string& target);
 
   OutputFile(OutputFile&& other) noexcept;

@@ -1,5 +1,6 @@
 #include "io/output_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -83,6 +84,31 @@ TEST_F(OutputFileTest, PermissionsAndLinksStay) {
   EXPECT_EQ(status.st_mode & 0777, 0640u);
 }
 
+TEST_F(OutputFileTest, WhereALinkLeadsToNothingTheFileIsMade) {
+  ASSERT_TRUE(fs::create_directory(path("folder")));
+  fs::create_symlink("folder/second", path("first"));
+  fs::create_symlink("../a", path("folder/second"));
+  ASSERT_TRUE(write_file(path("first"), "new"));
+  EXPECT_TRUE(fs::is_symlink(path("first")));
+  EXPECT_TRUE(fs::is_symlink(path("folder/second")));
+  EXPECT_EQ(content(path("a")), "new");
+  fs::create_symlink(path("b"), path("absolute"));
+  ASSERT_TRUE(write_file(path("absolute"), "new"));
+  EXPECT_EQ(content(path("b")), "new");
+}
+
+TEST_F(OutputFileTest, ALinkThatLeadsNowhereIsAnErrorAndStays) {
+  fs::create_symlink("loop", path("loop"));
+  fs::create_symlink("none/a", path("astray"));
+  for (const char* link : {"loop", "astray"}) {
+    const Status status = write_file(path(link), "x");
+    ASSERT_FALSE(status) << link;
+    EXPECT_EQ(status.error().kind, ErrorKind::kMachine);
+    EXPECT_TRUE(fs::is_symlink(path(link)));
+  }
+  EXPECT_EQ(files(), 2);
+}
+
 TEST_F(OutputFileTest, ANewFileHasTheUsualPermissions) {
   const mode_t mask = ::umask(022);
   const Status written = write_file(path("a"), "");
@@ -114,6 +140,18 @@ TEST_F(OutputFileTest, WhatIsNoRegularFileIsWrittenStraight) {
   struct stat status {};
   ASSERT_EQ(::stat("/dev/null", &status), 0);
   EXPECT_TRUE(S_ISCHR(status.st_mode));
+}
+
+TEST_F(OutputFileTest, AnOpenFileWithoutANameIsWrittenStraight) {
+  ASSERT_TRUE(write_file(path("a"), "longer than what follows"));
+  const int open_file = ::open(path("a").c_str(), O_RDWR);
+  ASSERT_GE(open_file, 0);
+  ASSERT_TRUE(fs::remove(path("a")));
+  const std::string name = "/dev/fd/" + std::to_string(open_file);
+  EXPECT_TRUE(write_file(name, "new"));
+  EXPECT_EQ(content(name), "new");
+  ::close(open_file);
+  EXPECT_EQ(files(), 0);
 }
 
 TEST_F(OutputFileTest, AClosedPipeIsAnError) {

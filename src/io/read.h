@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,14 +25,20 @@ struct ReadOptions {
   size_t max_facets = 50'000'000;  ///< flat faces of all spheres, cylinders and polyhedra together
 };
 
+/// Something in a file that whittle does not understand (yet).
+struct Unsupported {
+  SourceLocation where;
+  std::string message;  ///< as in "'hull' is not supported yet"
+};
+
 /// What was read.
 struct Read {
   Model model;
   /// Full messages, `file:line:column: warning: ...`, in the order of the file; what transforms
   /// make empty (transform_warnings) is among them. Many of one kind are summed up in one line.
   std::vector<std::string> warnings;
-  bool unsupported =
-      false;  ///< something was not understood, so the model may not be what was meant
+  /// The first thing that was not understood, if any: then the model may not be what was meant.
+  std::optional<Unsupported> unsupported;
 };
 
 /// Reads .csg text. `file_name` is what messages call it. The result does not refer to `text`.

@@ -51,9 +51,9 @@ FN Real quadratic_value(Real a, Real h, Real k, Real t) { return (a * t + K(2) *
 FN Real quadratic_root(Real a, Real h, Real k, Bool rising) {
   Real discriminant = h * h - a * k;
   Real s = sqrt(pmax(discriminant, K(0)));
-  Real w = select(rising, s, -s);  // a t = w - h
+  Real w = select(rising, s, K(0) - s);  // a t = w - h
   Bool cancels = h * w > K(0);
-  return select(cancels, k, w - h) / select(cancels, -(h + w), a);
+  return select(cancels, k, w - h) / select(cancels, K(0) - (h + w), a);
 }
 
 // Bounds of a sphere's f over the box with centre m and half size h: exact (from the box's nearest
@@ -74,7 +74,7 @@ FN Vec2 axis_range(Real g, Real a, Real h) {
   Real high_end = a * h * h + g * h;
   // The vertex counts if it lies strictly inside.
   Bool inner = fabs_(g) < K(2) * fabs_(a) * h;
-  Real vertex = select(inner, -(g * g) / (K(4) * select(inner, a, K(1))), low_end);
+  Real vertex = select(inner, (K(0) - g * g) / (K(4) * select(inner, a, K(1))), low_end);
   return make_vec2(pmin(pmin(low_end, high_end), vertex), pmax(pmax(low_end, high_end), vertex));
 }
 

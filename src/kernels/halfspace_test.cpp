@@ -92,8 +92,10 @@ TEST(Quadric, RangeOfASphereIsExactAndHoldsEveryValue) {
     const Vec3 m = numbers.vec(), h = abs(numbers.vec());
     const K::Vec2 range = K::sphere_range(scale, c, m, h, 1e-14),
                   general = K::quadric_range(f, m, h, 1e-14);
-    ASSERT_GE(range.x, general.x - 1e-12 * std::fabs(general.x));
-    ASSERT_LE(range.y, general.y + 1e-12 * std::fabs(general.y));
+    const Vec3 reach = abs(m) + h;
+    const double rounding = 1e-12 * (scale * dot(reach, reach) - c) + 1e-280;
+    ASSERT_GE(range.x, general.x - rounding);
+    ASSERT_LE(range.y, general.y + rounding);
     for (int j = 0; j < 4; ++j) {
       const auto weight = [&] { return numbers.engine() % 2 ? numbers.uniform(-1, 1) : 1.0; };
       const Vec3 p{m.x + h.x * weight(), m.y + h.y * weight(), m.z + h.z * weight()};

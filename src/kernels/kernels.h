@@ -28,6 +28,7 @@ struct Kernels {
 
 #define FN static inline
 #define K(x) Real(x)
+#include "kernels/camera.inl"
 #include "kernels/halfspace.inl"
 #undef K
 #undef FN

@@ -1,6 +1,7 @@
 // The camera: from pixel positions to rays. Conventions are OpenSCAD's (docs/conventions.md).
 #pragma once
 
+#include "kernels/kernels.h"
 #include "trace/frame.h"
 
 namespace whittle {
@@ -17,11 +18,15 @@ struct Camera {
   /// The ray through picture position (px, py) in pixels: (0, 0) is the top left corner of the
   /// picture, pixel (i, j) has its centre at (i + 0.5, j + 0.5); pixels are square.
   Ray ray(double px, double py) const {
-    const double s = 2 * half_height / height;
+    using K = Kernels<double>;
+    const double s = units_per_pixel();
     const double x = (px - 0.5 * width) * s, y = (0.5 * height - py) * s;
-    if (orthographic) return {eye + right * x + up * y, forward, -ortho_reach};
-    return {eye, normalize(forward + right * x + up * y), 0};
+    if (orthographic) return {K::picture_point(eye, right, up, x, y), forward, -ortho_reach};
+    return {eye, K::unit3(K::picture_point(forward, right, up, x, y)), 0};
   }
+
+  /// The size of a pixel: perspective: at distance 1 along the axis; orthographic: everywhere.
+  double units_per_pixel() const { return 2 * half_height / height; }
 };
 
 }  // namespace whittle

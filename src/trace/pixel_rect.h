@@ -20,7 +20,7 @@ struct PixelRect {
 /// if a corner is beside or behind a perspective eye. A pixel more on each side covers rounding.
 inline PixelRect pixels_covering(const Camera& camera, const Box& box) {
   const PixelRect all{0, 0, camera.width, camera.height};
-  const double pixels_per_unit = camera.height / (2 * camera.half_height);
+  const double pixels_per_unit = 1 / camera.units_per_pixel();
   double lo_x = kInfinity, hi_x = -kInfinity, lo_y = kInfinity, hi_y = -kInfinity;
   for (int i = 0; i < 8; ++i) {
     const Vec3 p = box.corner(i) - camera.eye;

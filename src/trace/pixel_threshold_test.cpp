@@ -80,7 +80,7 @@ TEST(PixelThreshold, WhatCoversAllButACornerIsNotSmall) {
 }
 
 TEST(PixelThreshold, WithoutClippingTheProjectedCornersDecide) {
-  rc::check("for boxes that are visible as a whole", [](bool orthographic) {
+  EXPECT_TRUE(rc::check("for boxes that are visible as a whole", [](bool orthographic) {
     const Camera camera = orthographic ? orthographic_camera() : camera_at_100();
     const auto between = [](double lo, double hi) {
       return lo + (hi - lo) * *rc::gen::inRange(0, 1001) / 1000;
@@ -97,7 +97,7 @@ TEST(PixelThreshold, WithoutClippingTheProjectedCornersDecide) {
     }
     RC_ASSERT(is_below_pixels(camera, box, longest * 1.001));
     RC_ASSERT(!is_below_pixels(camera, box, longest * 0.999));
-  });
+  }));
 }
 
 }  // namespace

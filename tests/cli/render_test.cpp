@@ -255,10 +255,15 @@ TEST_F(Render, WhatIsNotSupportedIsAWarningOrWithStrictAnError) {
   EXPECT_EQ(good({"hull.csg", "-o", "x.png", "--imgsize", "16,16", "-q"}).err, "");
   const Ended strict = run({"hull.csg", "-o", "strict.png", "--strict", "-q"});
   EXPECT_EQ(strict.exit_code, 1);
-  EXPECT_EQ(strict.err,
-            "hull.csg:2:1: error: 'hull' is not supported yet, shown as the union of its children "
-            "(--strict)\n");
+  EXPECT_EQ(strict.err, "hull.csg:2:1: error: 'hull' is not supported yet (--strict)\n");
   EXPECT_EQ(files(), (std::vector<std::string>{"hull.csg", "part.csg", "x.png"}));
+}
+
+TEST_F(Render, StrictNamesWhatIsNotSupportedWhateverOtherWarningsSay) {
+  write("fill.csg", "color(\"not supported\") cube(1);\ncube(1, 1, 1);\n  fill();\nhull();\n");
+  const Ended strict = run({"fill.csg", "-o", "x.png", "--strict"});
+  EXPECT_EQ(strict.exit_code, 1);
+  EXPECT_EQ(strict.err, "fill.csg:3:3: error: 'fill' is not supported yet (--strict)\n");
 }
 
 TEST_F(Render, MistakesInTheFileHaveTheirPlace) {

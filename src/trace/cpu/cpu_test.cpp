@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <hwy/highway.h>
+
 #include <cmath>
+#include <cstring>
 #include <string>
 
 #include "lower/lower.h"
 #include "subdivide/subdivide.h"
 #include "support/agreement.h"
+#include "support/random_tree.h"
 #include "support/read_text.h"
 
 namespace whittle {
@@ -117,6 +121,74 @@ TEST(Cpu, IgnoredCellsAreHoles) {
   settings.is_small = [](const Box&) { return true; };
   Traced model("difference(){sphere(5); translate([1,0,0]) sphere(5);}", settings);
   EXPECT_FALSE(model.hit({-20, 0, 0}, {0, 0, 0}).hit());
+}
+
+/// Calls visit() once with every instruction set that this machine has, and the scalar one.
+template <class Visit>
+void for_every_target(Visit&& visit) {
+  for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    visit();
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+TEST(Cpu, EveryInstructionSetGivesTheSameBytes) {
+  for (const uint64_t seed : {3, 5, 8}) {
+    const Model model = model_of(random_tree(seed, {.primitives = 30}));
+    const Scene scene = *lower(model);
+    const CellTree cells = subdivide(scene, {});
+    const auto tracer = make_cpu_tracer(scene, cells);
+    for (const Camera& camera : cameras_for(model, 75, 53)) {
+      std::vector<Frame> frames;
+      for_every_target([&] { frames.push_back(tracer->render(camera, {})); });
+      ASSERT_GE(frames.size(), 1u);
+      for (const Frame& frame : frames)
+        EXPECT_EQ(
+            std::memcmp(frame.hits.data(), frames[0].hits.data(), frame.hits.size() * sizeof(Hit)),
+            0);
+    }
+  }
+}
+
+TEST(Cpu, ProbesAndPicturesSeeTheSame) {
+  Traced model("difference(){cube(10, center = true); sphere(6.5);} cylinder(r=1,h=20);");
+  Camera camera = camera_along({20, 30, 25}, {-20, -30, -25});
+  camera.width = 61, camera.height = 43;
+  camera.half_height = 0.3;
+  const Frame frame = model.tracer->render(camera, {});
+  std::vector<PixelPosition> positions;
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) positions.push_back({float(x) + 0.5f, float(y) + 0.5f});
+  std::vector<Hit> hits(positions.size());
+  model.tracer->probe(camera, positions, hits);
+  EXPECT_EQ(std::memcmp(frame.hits.data(), hits.data(), hits.size() * sizeof(Hit)), 0);
+  EXPECT_TRUE(frame.at(30, 21).hit());
+}
+
+TEST(Cpu, RaysThatPartTakeTheirOwnWay) {
+  // Straight along an axis: the directions of neighbouring rays have all four pairs of signs.
+  Traced model(
+      "difference(){cube(10, center = true); translate([0,0,2]) cube([3,3,8], center = true);"
+      " sphere(4.5);}");
+  Camera camera = camera_along({0, 0, 30}, {0, 0, -1});
+  camera.width = camera.height = 64;
+  camera.half_height = 0.25;
+  camera.right = {1, 0, 0}, camera.up = {0, 1, 0};
+  const Frame frame = model.tracer->render(camera, {});
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      // The model has the symmetry of the square, and so has the picture.
+      EXPECT_EQ(frame.at(x, y).id, frame.at(63 - x, y).id);
+      EXPECT_EQ(frame.at(x, y).id, frame.at(y, x).id);
+      ASSERT_EQ(frame.at(x, y).hit(), frame.at(x, 63 - y).hit());
+      if (!frame.at(x, y).hit()) continue;
+      EXPECT_NEAR(frame.at(x, y).distance, frame.at(x, 63 - y).distance, 1e-4);
+    }
+  EXPECT_EQ(frame.at(32, 32).id, 3u);
 }
 
 }  // namespace

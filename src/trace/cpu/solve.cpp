@@ -2,32 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "base/result.h"
 #include "lower/evaluate.h"
 
 namespace whittle {
 namespace {
 
 using K = Kernels<double>;
-
-bool literal_value(const LeafLiteral& literal, bool is_inside) {
-  return is_inside != bool(literal.literal & 1);
-}
-
-/// f along the ray as x t^2 + 2 y t + z.
-Vec3 along_ray(const HalfSpace& h, const LocalRay& ray) {
-  const Vec3 o = ray.origin - h.center;
-  switch (h.kind) {
-    case SurfaceKind::kPlane:
-      return {0, dot(h.f.b, ray.direction), 2 * dot(h.f.b, o)};
-    case SurfaceKind::kSphere:
-      return K::sphere_along_ray(h.f.diag.x, h.f.c, o, ray.direction);
-    default:
-      return K::quadric_along_ray(h.f, o, ray.direction);
-  }
-}
 
 }  // namespace
 
@@ -39,43 +20,20 @@ void LeafSolver::add_crossing(double t, uint32_t literal) {
   crossings_[at] = {t, literal};
 }
 
-Inside LeafSolver::cross(CellKind kind, std::span<const LeafLiteral> literals, const LocalRay& ray,
-                         double t0, double t1) {
+void LeafSolver::list_crossings(std::span<const LiteralOnRay> on_ray, double t0, double t1) {
   crossings_.clear();
-  is_inside_.resize(literals.size());
-  nearest_ = {t0, 0};
-  double nearest = std::numeric_limits<double>::infinity();
-  for (uint32_t i = 0; i < literals.size(); ++i) {
-    const HalfSpace& h = scene_.half_spaces[literals[i].literal >> 1];
-    const Vec3 f = along_ray(h, ray);
+  is_inside_.resize(on_ray.size());
+  for (uint32_t i = 0; i < on_ray.size(); ++i) {
+    const LiteralOnRay& l = on_ray[i];
+    is_inside_[i] = l.inside;
     const auto root = [&](bool rising) {
       // The signs say that it is in (t0, t1]; rounding may not.
-      return std::min(std::max(K::quadratic_root(f.x, f.y, f.z, rising), t0), t1);
+      return std::min(std::max(K::quadratic_root(l.along.x, l.along.y, l.along.z, rising), t0), t1);
     };
-    // Neighbouring cells evaluate the same numbers at the t they share, so each change of sign is
-    // found in one of them, and in one only.
-    const double f0 = K::quadratic_value(f.x, f.y, f.z, t0),
-                 f1 = K::quadratic_value(f.x, f.y, f.z, t1);
-    const bool inside0 = f0 <= 0, inside1 = f1 <= 0;
-    is_inside_[i] = inside0;
-    if (std::fabs(f0) < nearest) nearest = std::fabs(f0), nearest_.literal = i;
-    if (inside0 != inside1) {
-      add_crossing(root(inside0), i);
-      continue;
-    }
-    // In and out again, or out and in: only if f turns back between, and goes beyond zero there.
-    const double bend = inside0 ? -f.x : f.x;
-    const double turn0 = f.x * t0 + f.y, turn1 = f.x * t1 + f.y;
-    if (bend > 0 && (turn0 < 0) != (turn1 < 0) && f.y * f.y > f.x * f.z) {
-      add_crossing(root(inside0), i);
-      add_crossing(root(!inside0), i);
-      continue;
-    }
-    const bool value = literal_value(literals[i], inside0);
-    if (kind == CellKind::kConjunction && !value) return Inside::kNo;
-    if (kind == CellKind::kDisjunction && value) return Inside::kYes;
+    // f rises where the ray leaves the half-space.
+    if (l.changes || l.bends) add_crossing(root(l.inside), i);
+    if (l.bends) add_crossing(root(!l.inside), i);
   }
-  return Inside::kUnknown;
 }
 
 void LeafSolver::start(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals) {
@@ -119,21 +77,25 @@ bool LeafSolver::value(CellKind kind, const Leaf& leaf,
   }
 }
 
-bool LeafSolver::first_change(CellKind kind, const Leaf& leaf, const LocalRay& ray, double t0,
-                              double t1, Inside& inside, Change& change) {
-  const std::span<const LeafLiteral> literals(&tree_.literals[leaf.first_literal],
-                                              leaf.literal_count);
-  const Inside settled = cross(kind, literals, ray, t0, t1);
-  if (settled != Inside::kUnknown && (settled == inside || inside == Inside::kUnknown)) {
-    inside = settled;
-    return false;
-  }
+bool LeafSolver::first_change(CellKind kind, const Leaf& leaf, std::span<const LiteralOnRay> on_ray,
+                              const LocalRay& ray, double t0, double t1, Inside& inside,
+                              Change& change) {
+  const std::span<const LeafLiteral> literals = literals_of(leaf);
+  list_crossings(on_ray, t0, t1);
   start(kind, leaf, literals);
   bool solid = value(kind, leaf, literals);
   if (inside != Inside::kUnknown && solid != (inside == Inside::kYes)) {
-    // The neighbour did not see the change that brought us here; make it now.
+    // The literal whose surface is nearest brought us here.
+    uint32_t nearest = 0;
+    const auto distance = [&](uint32_t i) {
+      const Vec3& f = on_ray[i].along;
+      return std::fabs(K::quadratic_value(f.x, f.y, f.z, t0));
+    };
+    for (uint32_t i = 1; i < on_ray.size(); ++i)
+      if (distance(i) < distance(nearest)) nearest = i;
     ++disagreements;
-    change = describe(leaf, literals, ray, t0, {&nearest_, 1}, solid);
+    const Crossing here{t0, nearest};
+    change = describe(leaf, literals, ray, t0, {&here, 1}, solid);
     return true;
   }
   for (size_t i = 0; i < crossings_.size();) {
@@ -210,8 +172,16 @@ const Face& LeafSolver::owner(const Leaf& leaf, std::span<const LeafLiteral> lit
       }
       operand += size;
     }
-    // A group changes only through an operand; a formula that kept its value is no owner's.
-    WHITTLE_CHECK(chosen < end);
+    if (chosen == end) {
+      // No operand changes here: the neighbouring cell did not see this change, so its half-space
+      // was on the other side of rounding. The first face on that half-space has it.
+      const uint32_t half_space = literals[group[0].literal].literal >> 1;
+      for (at = 0; at + 1 < formula.size(); ++at)
+        if (!formula[at].is_group() &&
+            scene_.faces[formula[at].payload()].literal >> 1 == half_space)
+          break;
+      break;
+    }
     at = chosen;
   }
   return scene_.faces[formula[at].payload()];

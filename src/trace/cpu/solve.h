@@ -1,4 +1,4 @@
-// Solves one leaf along one ray.
+// Solves one leaf along one ray, once it is known how each literal behaves there.
 #pragma once
 
 #include <span>
@@ -23,15 +23,33 @@ struct Change {
   Vec3 normal;  ///< unit, outward from the solid
 };
 
+/// A half-space on the way from t0 to t1 of several rays, one bit a ray.
+struct LaneSigns {
+  uint32_t inside = 0;   ///< the ray is inside the half-space at t0
+  uint32_t changes = 0;  ///< and not at t1, or the reverse: one crossing between
+  uint32_t bends = 0;    ///< it leaves and comes back (or enters and leaves): two crossings
+};
+
+/// The same for one ray.
+struct LiteralOnRay {
+  Vec3 along;  ///< f along the ray: x t^2 + 2 y t + z
+  bool inside, changes, bends;
+};
+
+inline bool literal_value(const LeafLiteral& literal, bool is_inside) {
+  return is_inside != bool(literal.literal & 1);
+}
+
 class LeafSolver {
  public:
   LeafSolver(const Scene& scene, const CellTree& tree) : scene_(scene), tree_(tree) {}
 
   /// Finds the first t in (t0, t1] at which the solid in this leaf changes from what `inside` says,
   /// or t0 if it differs there already. Otherwise false, and `inside` tells the value at t1.
-  /// Unknown becomes known at t0 and is no change. Crossings at equal t happen together.
-  bool first_change(CellKind kind, const Leaf& leaf, const LocalRay& ray, double t0, double t1,
-                    Inside& inside, Change& change);
+  /// Unknown becomes known at t0 and is no change. Crossings at equal t happen together. `on_ray`
+  /// has an entry for every literal of the leaf.
+  bool first_change(CellKind kind, const Leaf& leaf, std::span<const LiteralOnRay> on_ray,
+                    const LocalRay& ray, double t0, double t1, Inside& inside, Change& change);
 
   /// Times that a leaf differed at t0 from what its neighbour had said.
   uint64_t disagreements = 0;
@@ -41,10 +59,10 @@ class LeafSolver {
     double t;
     uint32_t literal;
   };
-  /// Lists the crossings in (t0, t1] and the literals' values at t0. Returns the solid's value if
-  /// one literal settles it along the whole way.
-  Inside cross(CellKind kind, std::span<const LeafLiteral> literals, const LocalRay& ray, double t0,
-               double t1);
+  std::span<const LeafLiteral> literals_of(const Leaf& leaf) const {
+    return {&tree_.literals[leaf.first_literal], leaf.literal_count};
+  }
+  void list_crossings(std::span<const LiteralOnRay> on_ray, double t0, double t1);
   void add_crossing(double t, uint32_t literal);
   void start(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals);
   void flip(CellKind kind, std::span<const LeafLiteral> literals, uint32_t literal);
@@ -59,7 +77,6 @@ class LeafSolver {
   const CellTree& tree_;
   std::vector<uint8_t> is_inside_;   ///< by literal: inside the half-space itself, at this point
   std::vector<Crossing> crossings_;  ///< in (t0, t1], sorted
-  Crossing nearest_{};               ///< the literal whose surface is nearest to the point at t0
   uint64_t state_ = 0;               ///< kTable: the bits of is_inside_
   uint32_t count_ = 0;               ///< conjunction, disjunction: literals that are true
 };
