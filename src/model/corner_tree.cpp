@@ -63,14 +63,13 @@ void CornerTree::split(uint32_t i) {
     node.reach = std::max(node.reach, length(d));
   }
   constexpr double kRoundings = 32;
-  node.rounding = kRoundings * std::numeric_limits<double>::epsilon() *
-                  (length(node.middle) + node.reach);
+  node.rounding =
+      kRoundings * std::numeric_limits<double>::epsilon() * (length(node.middle) + node.reach);
   const Vec3 size = box.size();
   const int longest = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  std::nth_element(begin, begin + (node.end - node.begin) / 2, end,
-                   [&](const Corner& a, const Corner& b) {
-                     return a.place[longest] < b.place[longest];
-                   });
+  std::nth_element(
+      begin, begin + (node.end - node.begin) / 2, end,
+      [&](const Corner& a, const Corner& b) { return a.place[longest] < b.place[longest]; });
 }
 
 }  // namespace whittle

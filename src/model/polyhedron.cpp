@@ -1,6 +1,10 @@
 // Every plane is pushed out until it supports all corners, so the solid holds its own corners
 // whatever their rounding. What rounding does to a plane's direction grows as the face gets
 // narrower; the test for convexity allows for just that.
+//
+// Every plane is held against every corner, but a tree of them answers for most. Faces in one plane
+// are found by going from neighbour to neighbour: what of a convex surface lies within a little of
+// a plane that touches it hangs together.
 #include "model/polyhedron.h"
 
 #include <algorithm>
@@ -8,10 +12,13 @@
 #include <numeric>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
 #include "base/box.h"
+#include "model/corner_tree.h"
 
 namespace whittle {
 
@@ -55,39 +62,174 @@ Vec3 area_vector(const Loop& loop, const std::vector<Vec3>& points) {
   return sum;
 }
 
+/// Which face, by its place in the list, runs along an edge in that direction.
+class Edges {
+ public:
+  /// False if a face does so already.
+  bool add(uint32_t from, uint32_t to, uint32_t face) {
+    return faces_.try_emplace(key(from, to), face).second;
+  }
+  const uint32_t* find(uint32_t from, uint32_t to) const {
+    const auto found = faces_.find(key(from, to));
+    return found == faces_.end() ? nullptr : &found->second;
+  }
+
+ private:
+  static uint64_t key(uint32_t from, uint32_t to) { return uint64_t{from} << 32 | to; }
+  std::unordered_map<uint64_t, uint32_t> faces_;
+};
+
+/// Calls `visit(from, to)` for every edge of the face; stops where it returns false.
+template <class Visit>
+bool all_edges(const Loop& loop, const Visit& visit) {
+  uint32_t from = loop.back();
+  for (const uint32_t to : loop) {
+    if (!visit(from, to)) return false;
+    from = to;
+  }
+  return true;
+}
+
 /// Each edge must be run along once in each direction.
-std::optional<std::string> check_closed(const std::vector<Face>& faces) {
-  std::unordered_map<uint64_t, int> edges;
-  const auto key = [](uint32_t a, uint32_t b) { return uint64_t{a} << 32 | b; };
-  for (const Face& face : faces)
-    for (size_t i = 0; i < face.loop.size(); ++i) {
-      const uint32_t a = face.loop[i], b = face.loop[(i + 1) % face.loop.size()];
-      if (++edges[key(a, b)] > 1)
-        return fmt::format(
-            "its faces are not turned the same way, or cross: the edge from point {} to {} is run "
-            "along twice, the second time by face {}",
-            a, b, face.number);
-    }
-  for (const Face& face : faces)
-    for (size_t i = 0; i < face.loop.size(); ++i) {
-      const uint32_t a = face.loop[i], b = face.loop[(i + 1) % face.loop.size()];
-      if (!edges.contains(key(b, a)))
-        return fmt::format("it is not closed: only face {} has the edge from point {} to {}",
+std::optional<std::string> check_closed(const std::vector<Face>& faces, Edges& edges) {
+  std::string reason;
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    const auto is_new = [&](uint32_t a, uint32_t b) {
+      if (edges.add(a, b, f)) return true;
+      reason = fmt::format(
+          "its faces are not turned the same way, or cross: the edge from point {} to {} is run "
+          "along twice, the second time by face {}",
+          a, b, faces[f].number);
+      return false;
+    };
+    if (!all_edges(faces[f].loop, is_new)) return reason;
+  }
+  for (const Face& face : faces) {
+    const auto has_twin = [&](uint32_t a, uint32_t b) {
+      if (edges.find(b, a) != nullptr) return true;
+      reason = fmt::format("it is not closed: only face {} has the edge from point {} to {}",
                            face.number, a, b);
-    }
+      return false;
+    };
+    if (!all_edges(face.loop, has_twin)) return reason;
+  }
   return std::nullopt;
+}
+
+/// What the faces are, once the text's peculiarities are gone.
+struct Surface {
+  const std::vector<Vec3>& points;
+  std::vector<Face> faces;
+  std::vector<CornerTree::Corner> corners;  ///< points that faces use
+  Edges edges;
+  double size = 0;  ///< the diagonal of the box
+
+  /// Else it is too narrow to have one; its neighbours bound the solid there.
+  bool has_direction(const Face& face) const { return face.width > kFlatSolid * kFlatSolid * size; }
+};
+
+void measure(Face& face, const std::vector<Vec3>& points) {
+  const Vec3 area = area_vector(face.loop, points);
+  double reach = 0;
+  for (const uint32_t i : face.loop) {
+    face.middle += points[i] / double(face.loop.size());
+    reach = std::max(reach, length(points[i] - points[face.loop[0]]));
+  }
+  face.area = length(area);
+  face.width = face.area / reach;
+  face.normal = -normalize(area);
+}
+
+/// Six times the volume; negative if the faces are turned inward. The centre, which may be any,
+/// spares digits.
+double volume(const Surface& surface, Vec3 center) {
+  double sum = 0;
+  for (const Face& face : surface.faces) sum += dot(face.middle - center, face.normal * face.area);
+  return sum;
+}
+
+bool is_thin(const Surface& surface) {
+  const Face& largest = *std::ranges::max_element(surface.faces, {}, &Face::area);
+  const auto across = [&](const CornerTree::Corner& corner) {
+    return dot(corner.place - largest.middle, largest.normal);
+  };
+  const auto [below, above] = std::ranges::minmax(surface.corners, {}, across);
+  return !(across(above) - across(below) > kFlatSolid * surface.size);
+}
+
+CornerTree make_tree(Surface& surface) {
+  std::vector<Vec3> outward(surface.points.size());
+  for (const Face& face : surface.faces)
+    for (const uint32_t i : face.loop) outward[i] += face.normal;
+  for (CornerTree::Corner& corner : surface.corners) corner.normal = outward[corner.number];
+  return CornerTree(std::move(surface.corners));
+}
+
+/// The plane of a face, pushed out to the farthest corner; or why that would be too far.
+std::variant<Plane, std::string> supporting_plane(const Surface& surface, const Face& face,
+                                                  const CornerTree& tree) {
+  const double slack = kPolyhedronSlack * surface.size;
+  const Vec3 n = face.normal;
+  const double mean = dot(n, face.middle);
+  double support = -kInfinity;
+  for (const uint32_t i : face.loop) {
+    const double height = dot(n, surface.points[i]);
+    if (std::fabs(height - mean) > slack)
+      return fmt::format("face {} is not flat: point {} lies {:.3g} off it", face.number, i,
+                         std::fabs(height - mean));
+    support = std::max(support, height);
+  }
+  const auto forgiven = [&](double distance) { return slack * (1 + distance / face.width); };
+  std::string reason;
+  tree.search(
+      n, face.middle,
+      [&](double height, double distance) {
+        return reason.empty() && (height > support || height - mean > forgiven(distance));
+      },
+      [&](const CornerTree::Corner& corner) {
+        const double height = dot(n, corner.place), beyond = height - mean;
+        support = std::max(support, height);
+        if (beyond > forgiven(length(corner.place - face.middle)))
+          reason = fmt::format("it is not convex: point {} lies {:.3g} outside face {}",
+                               corner.number, beyond, face.number);
+      });
+  if (!reason.empty()) return reason;
+  return Plane{n, support};
+}
+
+/// Marks the face and all that hang together with it in its plane.
+void mark_plane(const Surface& surface, const Plane& plane, uint32_t seed,
+                std::vector<bool>& has_plane) {
+  const auto is_in_plane = [&](const Face& face) {
+    if (surface.has_direction(face) && !(dot(plane.n, face.normal) > 0)) return false;
+    return std::ranges::all_of(face.loop, [&](uint32_t i) {
+      return std::fabs(dot(plane.n, surface.points[i]) - plane.d) <= kSamePlane * surface.size;
+    });
+  };
+  has_plane[seed] = true;
+  std::vector<uint32_t> open{seed};
+  while (!open.empty()) {
+    const uint32_t face = open.back();
+    open.pop_back();
+    all_edges(surface.faces[face].loop, [&](uint32_t a, uint32_t b) {
+      const uint32_t neighbour = *surface.edges.find(b, a);
+      if (!has_plane[neighbour] && is_in_plane(surface.faces[neighbour])) {
+        has_plane[neighbour] = true;
+        open.push_back(neighbour);
+      }
+      return true;
+    });
+  }
 }
 
 }  // namespace
 
 std::optional<std::string> build_planes(Polyhedron& polyhedron) {
-  const std::vector<Vec3>& points = polyhedron.points;
   polyhedron.planes.clear();
+  Surface surface{.points = polyhedron.points, .faces = {}, .corners = {}, .edges = {}};
+  const std::vector<Vec3>& points = surface.points;
 
   const std::vector<uint32_t> merged = merge_equal_points(points);
-  std::vector<Face> faces;
-  std::vector<Vec3> corners;
-  std::vector<uint32_t> corner_numbers;
   std::vector<bool> used(points.size());
   Box box;
   bool all_finite = true;
@@ -104,74 +246,35 @@ std::optional<std::string> build_planes(Polyhedron& polyhedron) {
       all_finite = all_finite && is_finite(points[i]);
       if (used[i]) continue;
       used[i] = true;
-      corners.push_back(points[i]);
-      corner_numbers.push_back(i);
+      surface.corners.push_back({.place = points[i], .normal = {}, .number = i});
       box.include(points[i]);
     }
-    faces.push_back(std::move(face));
+    surface.faces.push_back(std::move(face));
   }
-  const double size = box.diagonal();
+  std::vector<Face>& faces = surface.faces;
+  const double size = surface.size = box.diagonal();
   if (!all_finite || faces.empty() || !(size > 0) || !std::isfinite(size * size * size)) return {};
-
-  const Vec3 center = box.center();
-  double volume = 0;
-  const Face* largest = &faces[0];
-  for (Face& face : faces) {
-    const Vec3 area = area_vector(face.loop, points);
-    double reach = 0;
-    for (const uint32_t i : face.loop) {
-      face.middle += points[i] / double(face.loop.size());
-      reach = std::max(reach, length(points[i] - points[face.loop[0]]));
-    }
-    face.area = length(area);
-    face.width = face.area / reach;
-    face.normal = -normalize(area);
-    volume += dot(face.middle - center, -area);
-    if (face.area > largest->area) largest = &face;
-  }
-
-  const auto across = [&](Vec3 p) { return dot(p - largest->middle, largest->normal); };
-  const auto [below, above] = std::ranges::minmax(corners, {}, across);
-  if (!(across(above) - across(below) > kFlatSolid * size)) return {};
-
-  if (const auto reason = check_closed(faces)) return reason;
-  if (volume < 0)
+  for (Face& face : faces) measure(face, points);
+  if (is_thin(surface)) return {};
+  if (auto reason = check_closed(faces, surface.edges)) return reason;
+  if (volume(surface, box.center()) < 0)
     for (Face& face : faces) face.normal = -face.normal;
 
   // Widest first: the direction of a sliver is the least certain, so that a sliver in the plane of
   // a larger face goes with it.
-  std::vector<const Face*> order(faces.size());
-  std::ranges::transform(faces, order.begin(), [](const Face& f) { return &f; });
-  std::ranges::stable_sort(order, std::ranges::greater{}, &Face::width);
-
+  std::vector<uint32_t> order(faces.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::stable_sort(order, std::ranges::greater{},
+                           [&](uint32_t f) { return faces[f].width; });
+  const CornerTree tree = make_tree(surface);
   std::vector<Plane> planes;
-  for (const Face* face : order) {
-    // Too narrow to have a direction at all; its neighbours bound the solid there.
-    if (!(face->width > kFlatSolid * kFlatSolid * size)) continue;
-    const auto is_in = [&](const Plane& plane) {
-      return dot(plane.n, face->normal) > 0 && std::ranges::all_of(face->loop, [&](uint32_t i) {
-               return std::fabs(dot(plane.n, points[i]) - plane.d) <= kSamePlane * size;
-             });
-    };
-    if (std::ranges::any_of(planes, is_in)) continue;
-
-    const Vec3 n = face->normal;
-    const double mean = dot(n, face->middle);
-    for (const uint32_t i : face->loop)
-      if (std::fabs(dot(n, points[i]) - mean) > kPolyhedronSlack * size)
-        return fmt::format("face {} is not flat: point {} lies {:.3g} off it", face->number, i,
-                           std::fabs(dot(n, points[i]) - mean));
-    double support = -kInfinity;
-    for (size_t c = 0; c < corners.size(); ++c) {
-      const double height = dot(n, corners[c]);
-      if (height <= support) continue;
-      support = height;
-      const double beyond = height - mean, distance = length(corners[c] - face->middle);
-      if (beyond > kPolyhedronSlack * size * (1 + distance / face->width))
-        return fmt::format("it is not convex: point {} lies {:.3g} outside face {}",
-                           corner_numbers[c], beyond, face->number);
-    }
-    planes.push_back({n, support});
+  std::vector<bool> has_plane(faces.size());
+  for (const uint32_t f : order) {
+    if (has_plane[f] || !surface.has_direction(faces[f])) continue;
+    std::variant<Plane, std::string> plane = supporting_plane(surface, faces[f], tree);
+    if (auto* const reason = std::get_if<std::string>(&plane)) return std::move(*reason);
+    planes.push_back(std::get<Plane>(plane));
+    mark_plane(surface, planes.back(), f, has_plane);
   }
   polyhedron.planes = std::move(planes);
   return std::nullopt;

@@ -18,7 +18,7 @@ namespace whittle {
 /// kSamePlane of it, give one plane. A solid without faces, without volume (thinner than
 /// kFlatSolid), or with a corner that is not finite, has no planes and is no mistake.
 ///
-/// Cost: faces times points.
+/// Cost: about n log n in the number of corners, where most corners are corners of the solid.
 std::optional<std::string> build_planes(Polyhedron& polyhedron);
 
 inline constexpr double kPolyhedronSlack = 1e-5;

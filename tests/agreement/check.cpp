@@ -28,7 +28,7 @@ AgreementReport check(const Model& model, std::span<const uint32_t> leaf_sizes, 
     settings.leaf_size = k;
     CpuSubject cpu(model, settings);
     for (const Camera& camera : cameras_for(model, width, height))
-      add(sum, check_agreement(model, *cpu.tracer, *oracle, camera));
+      sum += check_agreement(model, *cpu.tracer, *oracle, camera);
     if (cpu.tracer->stats().disagreements > 0 && sum.first_difference.empty())
       sum.first_difference = "neighbouring cells disagree";
   }
@@ -76,7 +76,7 @@ int run(int argc, char** argv) {
                                                                 .halfspaces = seed % 5 == 0})),
                                     k, 16, 16);
     good &= report("seed " + std::to_string(seed), r, false);
-    add(sum, r);
+    sum += r;
   }
   if (seeds > 0) report("all seeds", sum, true);
   return good ? 0 : 1;

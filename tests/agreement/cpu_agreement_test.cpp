@@ -34,7 +34,7 @@ AgreementReport agree(const Model& model, std::span<const SubdivideSettings> rul
       const AgreementReport report = check_agreement(model, *cpu.tracer, *oracle, camera);
       EXPECT_EQ(report.unexplained, 0) << report.first_difference;
       EXPECT_EQ(report.ambiguous_unmatched, 0) << report.first_difference;
-      add(sum, report);
+      sum += report;
     }
     EXPECT_EQ(cpu.tracer->stats().disagreements, 0u);
   }
@@ -111,7 +111,7 @@ TEST_P(RandomTrees, Agree) {
     options.primitives = 4 + int(seed % 24);
     options.halfspaces = seed % 5 == 0;
     const Model model = model_of(random_tree(seed, options));
-    add(sum, agree(model, rules, 24, 18));
+    sum += agree(model, rules, 24, 18);
   }
   EXPECT_GT(sum.hits, sum.pixels / 5);
   EXPECT_LT(sum.ambiguous, sum.pixels / 50);
@@ -125,7 +125,7 @@ TEST(CpuAgreement, CoincidentRandomTrees) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Model model = model_of(random_tree(seed, {.primitives = 10, .coincident = true}));
     const SubdivideSettings rules[] = {leaf_size(kLeafSizes[seed % 4])};
-    add(sum, agree(model, rules, 32, 24));
+    sum += agree(model, rules, 32, 24);
   }
   EXPECT_GT(sum.hits, sum.pixels / 5);
   EXPECT_LT(sum.ambiguous, sum.pixels / 20);

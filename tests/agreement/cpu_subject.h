@@ -26,14 +26,4 @@ struct CpuSubject {
   CpuSubject(const CpuSubject&) = delete;
 };
 
-/// Adds up reports; keeps the first difference.
-inline void add(AgreementReport& sum, const AgreementReport& one) {
-  sum.pixels += one.pixels;
-  sum.hits += one.hits;
-  sum.ambiguous += one.ambiguous;
-  sum.unexplained += one.unexplained;
-  sum.ambiguous_unmatched += one.ambiguous_unmatched;
-  if (sum.first_difference.empty()) sum.first_difference = one.first_difference;
-}
-
 }  // namespace whittle

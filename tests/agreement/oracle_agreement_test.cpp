@@ -24,13 +24,7 @@ AgreementReport check(const Model& model, Tracer& subject) {
   const auto oracle = make_oracle_tracer(model);
   AgreementReport sum;
   for (const Camera& camera : cameras_for(model, 32, 24)) {
-    const AgreementReport report = check_agreement(model, subject, *oracle, camera);
-    sum.pixels += report.pixels;
-    sum.hits += report.hits;
-    sum.ambiguous += report.ambiguous;
-    sum.unexplained += report.unexplained;
-    sum.ambiguous_unmatched += report.ambiguous_unmatched;
-    if (sum.first_difference.empty()) sum.first_difference = report.first_difference;
+    sum += check_agreement(model, subject, *oracle, camera);
   }
   return sum;
 }

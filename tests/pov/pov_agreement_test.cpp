@@ -9,13 +9,13 @@
 #include <memory>
 #include <ostream>
 
+#include "agreement/cpu_subject.h"
 #include "image/antialias.h"
 #include "image/png.h"
 #include "image/pov.h"
 #include "io/generate.h"
 #include "io/read.h"
 #include "model/instances.h"
-#include "trace/oracle/oracle.h"
 #include "trace/view.h"
 
 namespace whittle {
@@ -96,7 +96,8 @@ TEST_P(PovAgreement, TheSameSilhouetteAndTheSameColors) {
   ASSERT_EQ(theirs->width, camera.width);
   ASSERT_EQ(theirs->height, camera.height);
 
-  const Frame frame = make_oracle_tracer(model)->render(camera);
+  const CpuSubject cpu(model, {});
+  const Frame frame = cpu.tracer->render(camera, {});
   const Picture ours = shade(frame, camera, appearances(model), settings);
   const std::vector<uint8_t> edges = edge_mask(frame, camera);
   size_t hits = 0, silhouette = 0, inner = 0, off_at_edges = 0;

@@ -149,6 +149,16 @@ Camera look_at(Vec3 target, Vec3 from_direction, double distance, int width, int
 
 }  // namespace
 
+AgreementReport& operator+=(AgreementReport& sum, const AgreementReport& one) {
+  sum.pixels += one.pixels;
+  sum.hits += one.hits;
+  sum.ambiguous += one.ambiguous;
+  sum.unexplained += one.unexplained;
+  sum.ambiguous_unmatched += one.ambiguous_unmatched;
+  if (sum.first_difference.empty()) sum.first_difference = one.first_difference;
+  return sum;
+}
+
 AgreementReport check_agreement(const Model& model, Tracer& subject, Tracer& oracle,
                                 const Camera& camera) {
   const double model_tolerance = tolerance(bounds(model));

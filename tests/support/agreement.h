@@ -37,6 +37,9 @@ struct AgreementReport {
   std::string first_difference;  ///< pixel, ray and both answers; empty if there is none
 };
 
+/// Adds up reports; keeps the first difference.
+AgreementReport& operator+=(AgreementReport& sum, const AgreementReport& one);
+
 AgreementReport check_agreement(const Model& model, Tracer& subject, Tracer& oracle,
                                 const Camera& camera);
 
