@@ -53,7 +53,10 @@ void OptionGroup::add_flag(const char* names, bool& given, const char* descripti
 
 void OptionGroup::add_text(const char* name, const char* value, const std::string& description,
                            const std::function<void(const std::string&)>& set) {
-  app_.add_option_function<std::string>(name, set, description)->type_name(value)->group(heading_);
+  app_.add_option_function<std::string>(name, set, description)
+      ->type_name(value)
+      ->group(heading_)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
 void OptionGroup::add_number(const char* name, const char* value, double& number, double least,

@@ -32,7 +32,8 @@ class OptionGroup {
 
   void add_flag(const char* names, bool& given, const char* description);
 
-  /// An option whose value `set` reads, and refuses if it must.
+  /// An option whose value `set` reads, and refuses if it must. If it is given more than once, the
+  /// last value counts, so that scripts can add to the options that they are given.
   void add_text(const char* name, const char* value, const std::string& description,
                 const std::function<void(const std::string&)>& set);
 

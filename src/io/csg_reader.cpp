@@ -224,7 +224,8 @@ bool CsgReader::open_children(const StatementType& type, OpenStatement open) {
   if (is_leaf(type.meaning) && !open.drops_children) {
     open.drops_children = true;
     if (lexer_.peek() != '}') {
-      const std::string message = fmt::format("{} takes no children; they are ignored", type.name);
+      const std::string message = fmt::format("{} takes no children; they are ignored{}", type.name,
+                                              open.single ? " (is a ';' missing?)" : "");
       warnings_.add(message, open.where, message);
     }
   }
@@ -327,7 +328,10 @@ bool CsgReader::set_meaning(const Statement& statement, std::string_view name, u
     }
     case Meaning::kUnsupportedGroup:
     case Meaning::kUnsupportedLeaf: {
-      warn_unsupported(statement.where, fmt::format("{} is not supported yet", quote(name)),
+      // What OpenSCAD does not have either is rather a slip of the pen.
+      warn_unsupported(statement.where,
+                       fmt::format("{} is not {}", quote(name),
+                                   statement.type->name.empty() ? "known" : "supported yet"),
                        is_leaf(statement.type->meaning) ? "nothing is shown for it"
                                                         : "shown as the union of its children");
       return true;

@@ -154,7 +154,8 @@ TEST(CsgReader, ChildrenOfAPrimitiveAreIgnoredButCount) {
   const Read read = read_good("cube() sphere(); sphere(){cube(); hull();} cube(){}");
   EXPECT_EQ(tree(read.model), "U(c1 s3 c5)");
   ASSERT_EQ(read.warnings.size(), 2u);
-  EXPECT_EQ(read.warnings[0], "t.csg:1:8: warning: cube takes no children; they are ignored");
+  EXPECT_EQ(read.warnings[0],
+            "t.csg:1:8: warning: cube takes no children; they are ignored (is a ';' missing?)");
   EXPECT_EQ(read.warnings[1], "t.csg:1:26: warning: sphere takes no children; they are ignored");
 }
 
@@ -176,11 +177,21 @@ TEST(CsgReader, WhatIsNotSupportedIsNamedAndShownAsItsChildren) {
             "t.csg:3:29: warning: 'circle' is not supported yet, nothing is shown for it");
 }
 
+TEST(CsgReader, AMisspeltNameIsNotCalledUnsupported) {
+  const Read read = read_good("Cube(3) sphere();");
+  EXPECT_EQ(tree(read.model), "U(s1)");
+  ASSERT_TRUE(read.unsupported);
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_EQ(read.warnings[0],
+            "t.csg:1:1: warning: 'Cube' is not known, shown as the union of its children");
+}
+
 TEST(CsgReader, EveryTwoDimensionalStatementIsUnsupported) {
   for (const char* name : {"square", "circle", "polygon", "text", "import", "surface", "offset",
                            "projection", "rotate_extrude", "minkowski", "resize", "roof", "fill"}) {
-    EXPECT_TRUE(read_good(std::string(name) + "(anything = [1], at = \"all\");").unsupported)
-        << name;
+    const Read read = read_good(std::string(name) + "(anything = [1], at = \"all\");");
+    ASSERT_TRUE(read.unsupported) << name;
+    EXPECT_EQ(read.unsupported->message, "'" + std::string(name) + "' is not supported yet");
   }
 }
 

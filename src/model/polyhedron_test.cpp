@@ -173,6 +173,78 @@ TEST(BuildPlanes, SixDigitCornersAreAccepted) {
   }));
 }
 
+/// A solid of revolution, cut into triangles as programs that export meshes do: `profile` holds
+/// radii and heights from the top down.
+Polyhedron turned(const std::vector<std::pair<double, double>>& profile, uint32_t n) {
+  Polyhedron p;
+  for (const auto& [r, z] : profile)
+    for (uint32_t k = 0; k < n; ++k)
+      p.points.push_back({six_digits(r * cos_degrees(360.0 * k / n)),
+                          six_digits(r * sin_degrees(360.0 * k / n)), six_digits(z)});
+  const auto at = [n](size_t ring, uint32_t k) { return uint32_t(ring * n + k % n); };
+  for (uint32_t k = 0; k < n; ++k)
+    for (size_t i = 0; i + 1 < profile.size(); ++i) {
+      p.faces.push_back({at(i, k), at(i, k + 1), at(i + 1, k + 1)});
+      p.faces.push_back({at(i, k), at(i + 1, k + 1), at(i + 1, k)});
+    }
+  for (uint32_t k = 1; k + 1 < n; ++k) {
+    p.faces.push_back({at(0, 0), at(0, k + 1), at(0, k)});
+    p.faces.push_back(
+        {at(profile.size() - 1, 0), at(profile.size() - 1, k), at(profile.size() - 1, k + 1)});
+  }
+  return p;
+}
+
+std::vector<std::pair<double, double>> ball_profile(int rings) {
+  std::vector<std::pair<double, double>> profile;
+  for (int i = 0; i < rings; ++i)
+    profile.emplace_back(10 * sin_degrees(180 * (i + 0.5) / rings),
+                         10 * cos_degrees(180 * (i + 0.5) / rings));
+  return profile;
+}
+
+TEST(BuildPlanes, EveryPlaneSupportsTheCornersOfALargeMesh) {
+  Polyhedron p = turned(ball_profile(50), 100);
+  ASSERT_EQ(build_planes(p), std::nullopt);
+  // Two caps, and 49 bands of 100 flat quadrangles.
+  EXPECT_EQ(p.planes.size(), 2u + 49 * 100);
+  for (const Plane& plane : p.planes) {
+    double support = -std::numeric_limits<double>::infinity();
+    for (const Vec3 q : p.points) support = std::max(support, dot(plane.n, q));
+    ASSERT_EQ(plane.d, support);
+  }
+}
+
+TEST(BuildPlanes, AHundredThousandFacesAreNoTrouble) {
+  Polyhedron p = turned(ball_profile(159), 318);
+  ASSERT_GT(p.faces.size(), 100'000u);
+  ASSERT_EQ(build_planes(p), std::nullopt);
+  EXPECT_NEAR(outside(p.planes, {0, 0, 0}), -10, 1e-2);
+  EXPECT_GT(outside(p.planes, {10.01, 0, 0}), 0);
+}
+
+TEST(BuildPlanes, ADentInALargeMeshIsFoundWhereverItIs) {
+  const std::vector<std::pair<double, double>> profile = ball_profile(20);
+  for (size_t ring = 1; ring + 1 < profile.size(); ring += 3) {
+    auto dented = profile;
+    dented[ring].first *= 0.98;
+    dented[ring].second *= 0.98;
+    Polyhedron p = turned(dented, 60);
+    EXPECT_NE(build_planes(p).value_or("").find("not convex"), std::string::npos) << ring;
+    EXPECT_TRUE(p.planes.empty());
+  }
+  // Convex where its faces meet, but not as a whole: it goes round twice.
+  std::vector<std::pair<double, double>> twice;
+  for (const int z : {1, -1}) twice.emplace_back(10, z);
+  Polyhedron star = turned(twice, 7);
+  for (uint32_t ring = 0; ring < 2; ++ring)
+    for (uint32_t k = 0; k < 7; ++k) {
+      star.points[ring * 7 + k].x = 10 * cos_degrees(720.0 * k / 7);
+      star.points[ring * 7 + k].y = 10 * sin_degrees(720.0 * k / 7);
+    }
+  EXPECT_NE(build_planes(star).value_or("").find("not convex"), std::string::npos);
+}
+
 /// The top of a large box cut into triangles that meet in a point close to one edge of it.
 Polyhedron box_with_sliver(double height_of_point) {
   Polyhedron p = box({100, 100, 10});

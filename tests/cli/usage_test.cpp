@@ -1,4 +1,5 @@
 // What the program says about itself and about command lines that are not right: exit code 2.
+#include "image/png.h"
 #include "program.h"
 
 namespace whittle {
@@ -89,6 +90,15 @@ TEST_F(Usage, WrongNumbersAreRefused) {
                  "--pixel-threshold: wants a number from 0 on, not -1");
   expect_refused({"--light", "1,2"}, "--light: wants 3 numbers, not 2 ('1,2')");
   expect_refused({"--light", "1,2,nan"}, "--light: 'nan' is not a number");
+}
+
+TEST_F(Usage, OfAnOptionGivenTwiceTheLastValueCounts) {
+  const Ended done = run({"part.csg", "-o", "x.png", "--imgsize", "64,64", "--imgsize=7,5"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  const Result<Picture> picture = read_png(path("x.png"));
+  ASSERT_TRUE(picture) << picture.error().message;
+  EXPECT_EQ(picture->width, 7);
+  EXPECT_EQ(picture->height, 5);
 }
 
 TEST_F(Usage, ACameraHasSixOrSevenNumbers) {
