@@ -4,14 +4,29 @@
 
 #include "lower/half_space_table.h"
 #include "lower/primitive_faces.h"
+#include "model/facets.h"
 #include "model/instances.h"
 
 namespace whittle {
 namespace {
 
-/// Below this many faces a primitive is classified face by face anyway, and a ball inside it would
-/// save nothing.
-constexpr uint32_t kFacesForInnerBall = 12;
+/// Below this many faces a primitive is classified face by face anyway, and a ball inside it or
+/// boxes around its facets would save nothing.
+constexpr uint32_t kManyFaces = 12;
+
+/// Merging may move a plane by the tolerance, and so a facet's corner by much more where it meets
+/// its neighbours at small angles. Boxes that are too large only cost time.
+void add_face_boxes(const Shape& shape, const Affine& local_from_object, Unit& unit, Scene& scene) {
+  std::vector<Box> boxes = facet_boxes(shape, local_from_object);
+  if (boxes.size() != unit.face_count) return;
+  unit.first_box = uint32_t(scene.face_boxes.size());
+  for (Box& box : boxes) {
+    const double margin = 0.05 * box.diagonal() + 10 * scene.tolerance;
+    box.lo -= Vec3{margin, margin, margin};
+    box.hi += Vec3{margin, margin, margin};
+  }
+  scene.face_boxes.insert(scene.face_boxes.end(), boxes.begin(), boxes.end());
+}
 
 /// Walks the model in preorder and writes the formula with negation pushed to the literals.
 class FormulaBuilder {
@@ -145,9 +160,10 @@ Result<Scene> lower(const Model& model) {
     unit.face_count = uint32_t(scene.faces.size()) - unit.first_face;
     if (unit.face_count > 1)
       unit.outer = transform(local_from_world, instance_box(model, instance));
-    if (unit.face_count >= kFacesForInnerBall) {
+    if (unit.face_count >= kManyFaces) {
       unit.inner_center = lowered.inner_center;
       unit.inner_radius = lowered.inner_radius;
+      add_face_boxes(primitive.shape, local_from_world * instance.world_from_object, unit, scene);
     }
     if (scene.faces.size() >= Token::kMaxPayload) return too_large();
     unit_of_node[instance.node] = number;

@@ -44,6 +44,9 @@ struct Unit {
   Box outer;          ///< holds the primitive; everything if it is unbounded
   Vec3 inner_center;  ///< a ball that the primitive holds; only where there are many faces
   double inner_radius = 0;
+  uint32_t first_box = kNoBoxes;  ///< into Scene::face_boxes, one a face; only where there are many
+
+  static constexpr uint32_t kNoBoxes = UINT32_MAX;
 };
 
 struct Scene {
@@ -54,6 +57,7 @@ struct Scene {
   std::vector<HalfSpace> half_spaces;
   std::vector<Face> faces;
   std::vector<Unit> units;
+  std::vector<Box> face_boxes;  ///< where a facet is, grown by more than merging can have moved it
   Formula formula;
 };
 

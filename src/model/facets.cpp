@@ -201,6 +201,39 @@ std::vector<Vec3> facet_vertices(const Shape& shape) {
   return std::visit(Vertices{}, shape);
 }
 
+std::vector<Box> facet_boxes(const Shape& shape, const Affine& map) {
+  const std::vector<Plane> planes = facet_planes(shape);
+  std::vector<Vec3> vertices = facet_vertices(shape);
+  Box whole;
+  for (const Vec3 p : vertices) whole.include(p);
+  std::vector<Box> boxes(planes.size());
+  const auto add = [&](size_t facet, size_t vertex) {
+    boxes[facet].include(map.point(vertices[vertex]));
+  };
+  if (const auto* s = std::get_if<Sphere>(&shape)) {
+    // Two caps, then rows of n trapezoids; vertices stand in rings of n, from the top.
+    const size_t n = size_t(s->facets), rings = vertices.size() / n;
+    for (size_t k = 0; k < n; ++k) {
+      add(0, k);
+      add(1, (rings - 1) * n + k);
+      for (size_t i = 1; i < rings; ++i)
+        for (const size_t corner : {k, (k + 1) % n}) {
+          add(2 + (i - 1) * n + k, (i - 1) * n + corner);
+          add(2 + (i - 1) * n + k, i * n + corner);
+        }
+    }
+    return boxes;
+  }
+  constexpr size_t kMostTests = 4'000'000;
+  if (planes.size() * vertices.size() > kMostTests) return {};
+  // A facet's corners are the vertices on its plane, to the precision of text.
+  const double slack = 2e-5 * whole.diagonal();
+  for (size_t f = 0; f < planes.size(); ++f)
+    for (size_t v = 0; v < vertices.size(); ++v)
+      if (planes[f].d - dot(planes[f].n, vertices[v]) <= slack) add(f, v);
+  return boxes;
+}
+
 bool is_flat(const Shape& shape) {
   if (const auto* s = std::get_if<Sphere>(&shape)) return s->facets >= 3;
   if (const auto* s = std::get_if<Cylinder>(&shape)) return s->facets >= 3;

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "base/box.h"
 #include "model/model.h"
 
 namespace whittle {
@@ -37,6 +38,10 @@ double sin_degrees(double degrees);
 /// The facets of a facetted sphere or cylinder (facets >= 3), of a cube or of a polyhedron, as
 /// outward planes in the shape's own coordinates. Precondition: not empty, and flat-faced.
 std::vector<Plane> facet_planes(const Shape& shape);
+
+/// The box of every facet under a map, in the order of facet_planes. Empty where it would take long
+/// to find them: for polyhedra of thousands of faces.
+std::vector<Box> facet_boxes(const Shape& shape, const Affine& map);
 
 /// The vertices of the same solids, for bounds.
 std::vector<Vec3> facet_vertices(const Shape& shape);

@@ -172,5 +172,27 @@ TEST(MessageAt, NamesThePlace) {
   EXPECT_EQ(message_at("a.csg", {3, 14}, "no."), "a.csg:3:14: no.");
 }
 
+TEST(Facets, BoxesHoldTheFacets) {
+  const Affine map{.row = {{1, 0.2, 0}, {0, 2, 0.3}, {0.1, 0, 0.5}}, .translation = {1, 2, 3}};
+  for (const Shape& shape :
+       {Shape(Sphere{3, 5}), Shape(Sphere{3, 8}), Shape(Sphere{2, 31}),
+        Shape(Cylinder{4, 2, 1, false, 7}), Shape(Cylinder{4, 2, 0, true, 12}), Shape(Cube{})}) {
+    const std::vector<Plane> planes = facet_planes(shape);
+    const std::vector<Vec3> vertices = facet_vertices(shape);
+    const std::vector<Box> boxes = facet_boxes(shape, map);
+    ASSERT_EQ(boxes.size(), planes.size());
+    for (size_t f = 0; f < planes.size(); ++f) {
+      int corners = 0;
+      for (const Vec3 v : vertices) {
+        if (std::fabs(planes[f].d - dot(planes[f].n, v)) > 1e-9) continue;
+        ++corners;
+        EXPECT_TRUE(boxes[f].contains(map.point(v)));
+      }
+      EXPECT_GE(corners, 3);
+    }
+  }
+  EXPECT_TRUE(facet_boxes(Cylinder{4, 2, 1, false, 2048}, {}).empty());
+}
+
 }  // namespace
 }  // namespace whittle

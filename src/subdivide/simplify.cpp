@@ -1,7 +1,14 @@
 #include "subdivide/simplify.h"
 
+#include <algorithm>
+
+#include "lower/evaluate.h"
+
 namespace whittle {
 namespace {
+
+/// A primitive with no more faces than this in a cell is left as it is there.
+constexpr size_t kFewFacets = 4;
 
 Truth truth(Side side, bool negated) {
   if (side == Side::kCrosses) return Truth::kVaries;
@@ -28,24 +35,76 @@ Truth Simplifier::unit(Token token, const CellBox& cell, double cell_edge, bool 
   // The complement of a conjunction is the disjunction of complements.
   Open faces{negated ? TokenKind::kOr : TokenKind::kAnd, 0, uint32_t(out.size()), 0, {}};
   out.push_back({});
-  for (uint32_t f = unit.first_face; f < unit.first_face + unit.face_count; ++f) {
-    const Side face = classify(scene_, scene_.faces[f].literal, cell);
-    if (face == Side::kOutside) {
-      out.resize(faces.header);
-      return truth(face, negated);
-    }
-    if (face == Side::kInside) continue;
-    out.push_back(Token::make(TokenKind::kFace, f, negated));
-    ++faces.operands;
-  }
-  if (faces.operands == 0) {
+  const auto face_at = [&](uint32_t k) { return unit.first_face + k; };
+  const Truth value = conjunction(face_at, unit.face_count, negated, cell, out);
+  if (value != Truth::kVaries) {
     out.resize(faces.header);
-    return truth(Side::kInside, negated);
+    return value;
   }
+  faces.operands = uint32_t(out.size()) - faces.header - 1;
   open_.push_back(faces);
   kept = close_group(faces, out);
   open_.pop_back();
   return Truth::kVaries;
+}
+
+/// Appends to `out` those faces of one primitive that matter in the cell. What the faces given say
+/// inside the cell must be all that the primitive says there.
+template <class FaceAt>
+Truth Simplifier::conjunction(FaceAt&& face_at, uint32_t count, bool negated, const CellBox& cell,
+                              Formula& out) {
+  const size_t first = out.size();
+  for (uint32_t k = 0; k < count; ++k) {
+    const uint32_t face = face_at(k);
+    const Side side = classify(scene_, scene_.faces[face].literal, cell);
+    if (side == Side::kOutside) {
+      out.resize(first);
+      return truth(side, negated);
+    }
+    if (side == Side::kCrosses) out.push_back(Token::make(TokenKind::kFace, face, negated));
+  }
+  if (out.size() - first > kFewFacets) {
+    const Unit& unit = scene_.units[scene_.faces[face_at(0)].unit];
+    if (unit.first_box != Unit::kNoBoxes) drop_far_facets(unit, cell, first, out);
+  }
+  return out.size() > first ? Truth::kVaries : truth(Side::kInside, negated);
+}
+
+/// Drops the faces whose facet does not reach the cell. All around a finely facetted body the
+/// planes of many facets cross a cell; but if the body has a point in the cell, then its part there
+/// is bounded by the facets that reach the cell alone: a segment in the cell from that point to one
+/// outside of the body leaves the body through such a facet, and its plane excludes the rest.
+void Simplifier::drop_far_facets(const Unit& unit, const CellBox& cell, size_t first,
+                                 Formula& out) const {
+  const auto is_far = [&](Token token) {
+    const Box& box = scene_.face_boxes[unit.first_box + token.payload() - unit.first_face];
+    for (int axis = 0; axis < 3; ++axis)
+      if (cell.center[axis] + cell.half[axis] < box.lo[axis] ||
+          cell.center[axis] - cell.half[axis] > box.hi[axis])
+        return true;
+    return false;
+  };
+  const auto begin = out.begin() + std::ptrdiff_t(first);
+  if (std::none_of(begin, out.end(), is_far)) return;
+  if (!meets(std::span<const Token>(out).subspan(first), cell)) return;
+  out.erase(std::remove_if(begin, out.end(), is_far), out.end());
+}
+
+/// Whether the conjunction of these faces surely has a point in the cell: its middle or a corner.
+/// No is no proof.
+bool Simplifier::meets(std::span<const Token> faces, const CellBox& cell) const {
+  const auto holds = [&](Vec3 p) {
+    return std::all_of(faces.begin(), faces.end(), [&](Token token) {
+      return contains(scene_, scene_.faces[token.payload()].literal, p);
+    });
+  };
+  if (holds(cell.center)) return true;
+  for (int i = 0; i < 8; ++i)
+    if (holds(cell.center + Vec3{i & 1 ? cell.half.x : -cell.half.x,
+                                 i & 2 ? cell.half.y : -cell.half.y,
+                                 i & 4 ? cell.half.z : -cell.half.z}))
+      return true;
+  return false;
 }
 
 /// Writes the header of the innermost open group, which has kept at least one operand.
@@ -97,8 +156,16 @@ Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, bool 
     } else if (token.kind() == TokenKind::kUnit) {
       value = unit(token, cell, cell_edge, expand_all, out, kept);
     } else {
-      value = truth(classify(scene_, scene_.faces[token.payload()].literal, cell), token.negated());
-      if (value == Truth::kVaries) out.push_back(token);
+      // The faces of one primitive stand in a row.
+      const uint32_t first = i;
+      const auto face_at = [&](uint32_t k) { return in[first + k].payload(); };
+      const uint32_t unit_number = scene_.faces[token.payload()].unit;
+      while (i + 1 < in.size() && in[i + 1].kind() == TokenKind::kFace &&
+             scene_.faces[in[i + 1].payload()].unit == unit_number)
+        ++i;
+      const size_t before = out.size();
+      value = conjunction(face_at, i + 1 - first, token.negated(), cell, out);
+      kept.operands = uint32_t(out.size() - before);
     }
     ++i;
 

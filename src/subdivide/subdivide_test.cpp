@@ -211,6 +211,32 @@ TEST(Simplify, AGroupLeftWithOneOperandJoinsTheGroupAround) {
   EXPECT_EQ(leaf.append_to(tree).kind, CellKind::kDisjunction);
 }
 
+TEST(Simplify, FacetsThatDoNotReachTheCellAreDropped) {
+  // The planes of a finely facetted sphere all cross any cell at its surface of some size.
+  Points points(8);
+  const Scene scene = lowered("rotate([10,20,30]) scale([1,1.5,0.7]) sphere(10, $fn = 60);");
+  Simplifier simplifier(scene, 0);
+  Formula outer, inner;
+  size_t kept = 0, cells = 0;
+  for (int i = 0; i < 3000; ++i) {
+    Box box;
+    box.include(points.in(scene.region));
+    box.include(box.lo + scene.region.size() * 0.15);
+    if (simplifier.simplify(scene.formula, box, true, outer) != Truth::kVaries) continue;
+    Box child = points.box_in(box);
+    const Truth truth = simplifier.simplify(outer, child, true, inner);
+    for (int j = 0; j < 20; ++j) {
+      const Vec3 p = points.in(box), q = points.in(child);
+      ASSERT_EQ(contains(scene, outer, p), contains(scene, scene.formula, p));
+      ASSERT_EQ(value_of(truth, scene, inner, q), contains(scene, scene.formula, q));
+    }
+    kept += expanded_size(scene, outer);
+    ++cells;
+  }
+  ASSERT_GT(cells, 300u);
+  EXPECT_LT(double(kept) / double(cells), 60) << "of " << scene.faces.size();
+}
+
 TEST(Leaf, TablesAreSimplifiedCompletely) {
   // (a and b) or (a and not b) is a; a and not a is nothing.
   const Scene same = lowered(
