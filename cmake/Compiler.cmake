@@ -20,4 +20,7 @@ if(WHITTLE_SANITIZE)
   add_compile_options(-fsanitize=${WHITTLE_SANITIZE} -fno-sanitize-recover=all
                       -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${WHITTLE_SANITIZE})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-Wno-maybe-uninitialized)  # false alarms in what GCC itself inserts
+  endif()
 endif()

@@ -6,13 +6,16 @@ function(whittle_module name)
   cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;TESTS;TEST_DEPENDS" ${ARGN})
   if(arg_SOURCES)
     add_library(whittle_${name} STATIC ${arg_SOURCES})
-    target_include_directories(whittle_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+    target_include_directories(whittle_${name}
+                               PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
     target_link_libraries(whittle_${name} PUBLIC ${arg_DEPENDS})
   else()
     add_library(whittle_${name} INTERFACE)
-    target_include_directories(whittle_${name} INTERFACE ${PROJECT_SOURCE_DIR}/src)
+    target_include_directories(whittle_${name}
+                               INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
     target_link_libraries(whittle_${name} INTERFACE ${arg_DEPENDS})
   endif()
+  set_property(GLOBAL APPEND PROPERTY WHITTLE_MODULES whittle_${name})  # for Install.cmake
   if(WHITTLE_TESTS AND arg_TESTS)
     add_executable(${name}_test ${arg_TESTS})
     target_link_libraries(${name}_test PRIVATE whittle_${name} ${arg_TEST_DEPENDS} rapidcheck

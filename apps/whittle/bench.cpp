@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
-#include <tbb/info.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "base/workers.h"
 #include "command_line.h"
 #include "commands.h"
 #include "console.h"
@@ -134,7 +134,7 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   json["backend"] = name_of(backend_choices(), renderer->backend());
   json["width"] = camera.width;
   json["height"] = camera.height;
-  json["threads"] = a.renderer.threads > 0 ? a.renderer.threads : tbb::info::default_concurrency();
+  json["threads"] = Workers(a.renderer.threads).count();
   json["repeat"] = a.repeat;
   json["parse_ms"] = median(parse);
   json["lower_ms"] = median(lower);

@@ -1,31 +1,64 @@
-// A bounded group of threads for parallel loops (oneTBB underneath).
+// A bounded group of threads, and the loop that every parallel part of whittle runs on them.
 #pragma once
 
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-#include <tbb/task_arena.h>
-
+#include <cstddef>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <vector>
 
 namespace whittle {
 
 class Workers {
  public:
   /// `threads` 0 or less means as many as the machine has. More than it has are allowed.
-  explicit Workers(int threads) : arena_(threads > 0 ? threads : tbb::task_arena::automatic) {
-    if (threads > tbb::info::default_concurrency())
-      limit_.emplace(tbb::global_control::max_allowed_parallelism, size_t(threads));
+  explicit Workers(int threads);
+  ~Workers();
+
+  /// How many there are.
+  size_t count() const;
+
+  /// Does the part first <= i < last of a loop. No two calls have the same `worker`, which is below
+  /// count(), at the same time.
+  using Body = std::function<void(size_t first, size_t last, size_t worker)>;
+
+  /// Calls `body` for parts that together are 0 <= i < n, in any order, and returns when all is
+  /// done. The parts are of about `grain` or more. What a call throws is thrown here, without
+  /// the rest being done. `body` must not start another loop of the same workers.
+  void for_parts(size_t n, size_t grain, const Body& body) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// What each worker has for itself, made when it first asks.
+template <class T>
+class PerWorker {
+ public:
+  explicit PerWorker(const Workers& workers) : places_(workers.count()) {}
+
+  /// The worker's own; made of `parts` if there is none yet.
+  template <class... Parts>
+  T& of(size_t worker, const Parts&... parts) {
+    std::optional<T>& value = places_[worker].value;
+    if (!value) value.emplace(parts...);
+    return *value;
   }
 
-  /// Runs `work`; parallel loops inside it use these threads. Returns when it is done.
-  template <class Work>
-  void run(Work&& work) {
-    arena_.execute(work);
+  /// Calls `visit` for all that there are. Not while a loop runs.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (const Place& place : places_)
+      if (place.value) visit(*place.value);
   }
 
  private:
-  std::optional<tbb::global_control> limit_;
-  tbb::task_arena arena_;
+  /// Apart from its neighbours', so that no two workers write to one cache line.
+  struct alignas(128) Place {
+    std::optional<T> value;
+  };
+  std::vector<Place> places_;
 };
 
 }  // namespace whittle

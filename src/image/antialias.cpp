@@ -1,8 +1,5 @@
 #include "image/antialias.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -16,6 +13,7 @@ constexpr float kCosCrease = 0.99026806874157f;  ///< cos 8 degrees
 constexpr float kDepthStepPixels = 2;
 /// Samples traced at a time: enough to keep a tracer's threads busy, and bounded memory.
 constexpr size_t kSamplesPerBatch = size_t(1) << 20;
+constexpr size_t kPixelsPerTask = 64;
 
 /// A hit with what its neighbours ask of it.
 struct Seen {
@@ -53,35 +51,52 @@ void look_at_row(const Frame& frame, const PixelRays& rays, int y, std::vector<S
 /// Neighbours that stand after a pixel, and the bit of each.
 constexpr struct { int dx, dy; } kLater[] = {{1, 0}, {-1, 1}, {0, 1}, {1, 1}};
 
+/// Writes the mean colour of one pixel's samples.
+void store_mean(const Shader& shader, std::span<const Hit> hits,
+                std::span<const PixelPosition> positions, uint8_t* rgba) {
+  Vec3f sum;
+  size_t seen = 0;
+  for (size_t s = 0; s < hits.size(); ++s) {
+    if (!hits[s].hit() && !shader.has_background()) continue;
+    const Vec3f c = shader.color(hits[s], positions[s].x, positions[s].y);
+    // A sample brighter than white is white: a highlight must not outshine an edge's other side.
+    sum += min(c, Vec3f{1, 1, 1});
+    ++seen;
+  }
+  if (seen == 0)
+    std::fill_n(rgba, 4, uint8_t(0));
+  else
+    shader.store(sum / float(seen), float(seen) / float(hits.size()), rgba);
+}
+
 }  // namespace
 
-std::vector<uint8_t> edge_mask(const Frame& frame, const Camera& camera) {
+std::vector<uint8_t> edge_mask(const Frame& frame, const Camera& camera, const Workers& workers) {
   WHITTLE_CHECK(frame.width == camera.width && frame.height == camera.height);
-  constexpr int kRowsPerTask = 16;
+  constexpr size_t kRowsPerTask = 16;
   const PixelRays rays(camera);
   const size_t width = size_t(frame.width);
   // Each pair is looked at once, from its earlier pixel; a task writes its own rows only.
   std::vector<uint8_t> later(frame.hits.size());
-  tbb::parallel_for(tbb::blocked_range<int>(0, frame.height, kRowsPerTask),
-                    [&](const tbb::blocked_range<int>& rows) {
-                      std::vector<Seen> here(width), below(width);
-                      look_at_row(frame, rays, rows.begin(), below);
-                      for (int y = rows.begin(); y < rows.end(); ++y) {
-                        std::swap(here, below);
-                        if (y + 1 < frame.height) look_at_row(frame, rays, y + 1, below);
-                        for (int x = 0; x < frame.width; ++x) {
-                          unsigned bits = 0;
-                          for (unsigned k = 0; k < std::size(kLater); ++k) {
-                            const int u = x + kLater[k].dx, v = y + kLater[k].dy;
-                            if (u < 0 || u >= frame.width || v >= frame.height) continue;
-                            bits |= unsigned(differ(frame.at(x, y), here[size_t(x)], frame.at(u, v),
-                                                    (v == y ? here : below)[size_t(u)]))
-                                    << k;
-                          }
-                          later[size_t(y) * width + size_t(x)] = uint8_t(bits);
-                        }
-                      }
-                    });
+  workers.for_parts(size_t(frame.height), kRowsPerTask, [&](size_t first, size_t last, size_t) {
+    std::vector<Seen> here(width), below(width);
+    look_at_row(frame, rays, int(first), below);
+    for (int y = int(first); y < int(last); ++y) {
+      std::swap(here, below);
+      if (y + 1 < frame.height) look_at_row(frame, rays, y + 1, below);
+      for (int x = 0; x < frame.width; ++x) {
+        unsigned bits = 0;
+        for (unsigned k = 0; k < std::size(kLater); ++k) {
+          const int u = x + kLater[k].dx, v = y + kLater[k].dy;
+          if (u < 0 || u >= frame.width || v >= frame.height) continue;
+          bits |= unsigned(differ(frame.at(x, y), here[size_t(x)], frame.at(u, v),
+                                  (v == y ? here : below)[size_t(u)]))
+                  << k;
+        }
+        later[size_t(y) * width + size_t(x)] = uint8_t(bits);
+      }
+    }
+  });
   std::vector<uint8_t> mask(frame.hits.size());
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
@@ -98,11 +113,11 @@ std::vector<uint8_t> edge_mask(const Frame& frame, const Camera& camera) {
 
 Picture shade_antialiased(Tracer& tracer, const Camera& camera, const Frame& frame,
                           std::span<const Appearance> appearances, const ShadeSettings& settings,
-                          int n) {
-  Picture picture = shade(frame, camera, appearances, settings);
+                          int n, const Workers& workers) {
+  Picture picture = shade(frame, camera, appearances, settings, workers);
   if (n <= 1) return picture;
   const Shader shader(camera, appearances, settings);
-  const std::vector<uint8_t> mask = edge_mask(frame, camera);
+  const std::vector<uint8_t> mask = edge_mask(frame, camera, workers);
   std::vector<size_t> edges;
   for (size_t i = 0; i < mask.size(); ++i) {
     if (mask[i]) edges.push_back(i);
@@ -116,32 +131,21 @@ Picture shade_antialiased(Tracer& tracer, const Camera& camera, const Frame& fra
     const size_t count = std::min(batch, edges.size() - first);
     positions.clear();
     for (size_t k = 0; k < count; ++k) {
-      const size_t pixel = edges[first + k];
+      const size_t x = edges[first + k] % width, y = edges[first + k] / width;
       for (int b = 0; b < n; ++b) {
         for (int a = 0; a < n; ++a) {
-          positions.push_back({float(pixel % width) + (float(a) + 0.5f) / float(n),
-                               float(pixel / width) + (float(b) + 0.5f) / float(n)});
+          positions.push_back(
+              {float(x) + (float(a) + 0.5f) / float(n), float(y) + (float(b) + 0.5f) / float(n)});
         }
       }
     }
     hits.assign(positions.size(), Hit{});
     tracer.probe(camera, positions, hits);
-    tbb::parallel_for(size_t(0), count, [&](size_t k) {
-      Vec3f sum;
-      size_t seen = 0;
-      for (size_t s = k * samples; s < (k + 1) * samples; ++s) {
-        if (!hits[s].hit() && !shader.has_background()) continue;
-        const Vec3f c = shader.color(hits[s], positions[s].x, positions[s].y);
-        // A sample brighter than white is white: a highlight must not outshine an edge's other
-        // side.
-        sum += min(c, Vec3f{1, 1, 1});
-        ++seen;
-      }
-      uint8_t* rgba = &picture.rgba[4 * edges[first + k]];
-      if (seen == 0) {
-        std::fill_n(rgba, 4, uint8_t(0));
-      } else {
-        shader.store(sum / float(seen), float(seen) / float(samples), rgba);
+    workers.for_parts(count, kPixelsPerTask, [&](size_t begin, size_t end, size_t) {
+      for (size_t k = begin; k < end; ++k) {
+        const std::span<const Hit> pixel_hits(&hits[k * samples], samples);
+        const std::span<const PixelPosition> places(&positions[k * samples], samples);
+        store_mean(shader, pixel_hits, places, &picture.rgba[4 * edges[first + k]]);
       }
     });
   }

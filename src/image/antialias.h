@@ -14,7 +14,7 @@ namespace whittle {
 /// The pixels at edges, one byte each (1: edge): the id differs from one of the eight neighbours',
 /// or the normals stand more than 8 degrees apart, or neither pixel's tangent plane foretells the
 /// other's distance to within two pixels' width.
-std::vector<uint8_t> edge_mask(const Frame& frame, const Camera& camera);
+std::vector<uint8_t> edge_mask(const Frame& frame, const Camera& camera, const Workers& workers);
 
 /// shade(), but pixels at edges are the mean of n * n samples on a regular grid. Linear light is
 /// averaged in the studio style; the others define display values and know no light, so there those
@@ -22,6 +22,6 @@ std::vector<uint8_t> edge_mask(const Frame& frame, const Camera& camera);
 /// samples that hit, and alpha their share. Deterministic; n <= 1 is shade().
 Picture shade_antialiased(Tracer& tracer, const Camera& camera, const Frame& frame,
                           std::span<const Appearance> appearances, const ShadeSettings& settings,
-                          int n);
+                          int n, const Workers& workers);
 
 }  // namespace whittle

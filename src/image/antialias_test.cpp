@@ -1,7 +1,6 @@
 #include "image/antialias.h"
 
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <cmath>
 #include <functional>
@@ -11,6 +10,8 @@
 
 namespace whittle {
 namespace {
+
+const Workers kWorkers(0);
 
 /// A tracer of anything that a function can say about a ray; counts what it is asked.
 class FunctionTracer : public Tracer {
@@ -75,7 +76,7 @@ TEST(Antialias, TheShareOfSamplesThatHitIsTheAlpha) {
     ShadeSettings settings;
     settings.style = Style::kOpenscad;
     settings.background = false;
-    const Picture p = shade_antialiased(tracer, camera, frame, {}, settings, 4);
+    const Picture p = shade_antialiased(tracer, camera, frame, {}, settings, 4, kWorkers);
     for (int y = 0; y < 4; ++y) {
       EXPECT_EQ(p.at(3, y)[3], 255);
       EXPECT_EQ(p.at(4, y)[3], int(share * 255 + 0.5));
@@ -89,7 +90,7 @@ TEST(Antialias, OnlyPixelsBesideTheEdgeAreTracedAgain) {
   FunctionTracer tracer = edge_tracer(0.5, 2);
   const Camera camera = top_camera(20, 10);
   const Frame frame = tracer.render(camera, {});
-  shade_antialiased(tracer, camera, frame, {}, {}, 3);
+  shade_antialiased(tracer, camera, frame, {}, {}, 3, kWorkers);
   // The border between pixel columns 9 and 10, or 10 and 11: two columns of ten rows.
   EXPECT_EQ(tracer.probed, size_t(2 * 10 * 9));
 }
@@ -98,8 +99,8 @@ TEST(Antialias, OneSampleIsPlainShading) {
   FunctionTracer tracer = edge_tracer(0.5, 2);
   const Camera camera = top_camera(8, 4);
   const Frame frame = tracer.render(camera, {});
-  EXPECT_EQ(shade_antialiased(tracer, camera, frame, {}, {}, 1).rgba,
-            shade(frame, camera, {}, {}).rgba);
+  EXPECT_EQ(shade_antialiased(tracer, camera, frame, {}, {}, 1, kWorkers).rgba,
+            shade(frame, camera, {}, {}, kWorkers).rgba);
   EXPECT_EQ(tracer.probed, 0u);
 }
 
@@ -110,7 +111,8 @@ TEST(Antialias, StudioAveragesLightAndTheOthersDisplayValues) {
   for (const Style style : {Style::kStudio, Style::kBlinn, Style::kOpenscad}) {
     ShadeSettings settings;
     settings.style = style;
-    const Picture p = shade_antialiased(tracer, camera, frame, kBlackAndWhite, settings, 2);
+    const Picture p =
+        shade_antialiased(tracer, camera, frame, kBlackAndWhite, settings, 2, kWorkers);
     const float dark = float(p.at(0, 1)[1]) / 255, bright = float(p.at(7, 1)[1]) / 255;
     const float mean =
         style == Style::kStudio
@@ -139,7 +141,7 @@ TEST(Antialias, TheInsideOfABallIsNoEdgeAndItsOutlineIs) {
     const Camera camera = make_camera(options, {}, Box{{-5, -5, -5}, {5, 5, 5}});
     FunctionTracer tracer([](const Ray& ray) { return ball(ray, 5); });
     const Frame frame = tracer.render(camera, {});
-    const std::vector<uint8_t> mask = edge_mask(frame, camera);
+    const std::vector<uint8_t> mask = edge_mask(frame, camera, kWorkers);
     size_t hits = 0;
     for (int y = 1; y + 1 < 200; ++y) {
       for (int x = 1; x + 1 < 200; ++x) {
@@ -166,7 +168,7 @@ TEST(Antialias, APlaneSeenAtAGrazingAngleIsNoEdge) {
       return t > ray.t_min ? Hit{float(t), 1, {0, 0, 1}} : Hit{};
     });
     const Frame frame = tracer.render(camera, {});
-    const std::vector<uint8_t> mask = edge_mask(frame, camera);
+    const std::vector<uint8_t> mask = edge_mask(frame, camera, kWorkers);
     for (int y = 2; y < 64; ++y) {
       for (int x = 0; x < 64; ++x) {
         if (!frame.at(x, y - 2).hit()) continue;
@@ -186,15 +188,15 @@ TEST(Antialias, AStepInDepthOfOneOwnerIsAnEdge) {
   };
   const Camera camera = top_camera(8, 4);
   FunctionTracer low = step_tracer(1), high = step_tracer(3);
-  EXPECT_EQ(count(edge_mask(low.render(camera, {}), camera)), 0u);
-  EXPECT_EQ(count(edge_mask(high.render(camera, {}), camera)), 8u);
+  EXPECT_EQ(count(edge_mask(low.render(camera, {}), camera, kWorkers)), 0u);
+  EXPECT_EQ(count(edge_mask(high.render(camera, {}), camera, kWorkers)), 8u);
 }
 
 TEST(Antialias, APixelThatDiffersMarksItselfAndItsEightNeighbours) {
   Frame frame(7, 6);
   for (Hit& h : frame.hits) h = {50, 1, {0, 0, 1}};
   frame.at(3, 2).id = 2;
-  const std::vector<uint8_t> mask = edge_mask(frame, top_camera(7, 6));
+  const std::vector<uint8_t> mask = edge_mask(frame, top_camera(7, 6), kWorkers);
   for (int y = 0; y < 6; ++y) {
     for (int x = 0; x < 7; ++x) {
       const bool near = std::abs(x - 3) <= 1 && std::abs(y - 2) <= 1;
@@ -214,8 +216,8 @@ TEST(Antialias, ACreaseOfOneOwnerIsAnEdge) {
   };
   const Camera camera = top_camera(8, 4);
   FunctionTracer flat = crease_tracer(7), sharp = crease_tracer(9);
-  EXPECT_EQ(count(edge_mask(flat.render(camera, {}), camera)), 0u);
-  EXPECT_EQ(count(edge_mask(sharp.render(camera, {}), camera)), 8u);
+  EXPECT_EQ(count(edge_mask(flat.render(camera, {}), camera, kWorkers)), 0u);
+  EXPECT_EQ(count(edge_mask(sharp.render(camera, {}), camera, kWorkers)), 8u);
 }
 
 TEST(Antialias, IsTheSameOnOneThread) {
@@ -224,9 +226,8 @@ TEST(Antialias, IsTheSameOnOneThread) {
   const Camera camera = make_camera(options, {}, Box{{-5, -5, -5}, {5, 5, 5}});
   FunctionTracer tracer([](const Ray& ray) { return ball(ray, 5); });
   const Frame frame = tracer.render(camera, {});
-  const Picture p = shade_antialiased(tracer, camera, frame, {}, {}, 4);
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_EQ(shade_antialiased(tracer, camera, frame, {}, {}, 4).rgba, p.rgba);
+  const Picture p = shade_antialiased(tracer, camera, frame, {}, {}, 4, kWorkers);
+  EXPECT_EQ(shade_antialiased(tracer, camera, frame, {}, {}, 4, Workers(1)).rgba, p.rgba);
 }
 
 }  // namespace

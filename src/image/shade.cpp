@@ -1,8 +1,5 @@
 #include "image/shade.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -166,7 +163,7 @@ void Shader::store(Vec3f color, float alpha, uint8_t* rgba) const {
 }
 
 Picture shade(const Frame& frame, const Camera& camera, std::span<const Appearance> appearances,
-              const ShadeSettings& settings) {
+              const ShadeSettings& settings, const Workers& workers) {
   WHITTLE_CHECK(frame.width == camera.width && frame.height == camera.height);
   const Shader shader(camera, appearances, settings);
   Picture picture(frame.width, frame.height);
@@ -183,11 +180,10 @@ Picture shade(const Frame& frame, const Camera& camera, std::span<const Appearan
       }
     }
   };
-  constexpr int kRowsPerTask = 16;
-  tbb::parallel_for(tbb::blocked_range<int>(0, frame.height, kRowsPerTask),
-                    [&](const tbb::blocked_range<int>& rows) {
-                      for (int y = rows.begin(); y < rows.end(); ++y) shade_row(y);
-                    });
+  constexpr size_t kRowsPerTask = 16;
+  workers.for_parts(size_t(frame.height), kRowsPerTask, [&](size_t first, size_t last, size_t) {
+    for (size_t y = first; y < last; ++y) shade_row(int(y));
+  });
   return picture;
 }
 

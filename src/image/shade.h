@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/workers.h"
 #include "image/colorscheme.h"
 #include "image/picture.h"
 #include "image/pixel_rays.h"
@@ -86,6 +87,6 @@ class Shader {
 /// Colours every pixel, in parallel. A pure function: the same bytes on any number of threads.
 /// Precondition: the frame has the camera's size.
 Picture shade(const Frame& frame, const Camera& camera, std::span<const Appearance> appearances,
-              const ShadeSettings& settings);
+              const ShadeSettings& settings, const Workers& workers);
 
 }  // namespace whittle

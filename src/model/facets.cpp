@@ -109,6 +109,7 @@ struct Vertices {
   std::vector<Vec3> operator()(const Cube& s) const {
     const Box box = s.center ? Box{s.size * -0.5, s.size * 0.5} : Box{{}, s.size};
     std::vector<Vec3> points;
+    points.reserve(8);
     for (int i = 0; i < 8; ++i) points.push_back(box.corner(i));
     return points;
   }

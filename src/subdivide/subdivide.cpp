@@ -1,8 +1,7 @@
 #include "subdivide/subdivide.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "base/workers.h"
@@ -56,7 +55,7 @@ class Builder {
   /// Ends the cell as a leaf, or splits it and gives its two children, each with a value if it
   /// stays open.
   struct Children {
-    std::optional<OpenCell> child[2];
+    std::array<std::optional<OpenCell>, 2> child;
   };
   Children step(OpenCell cell, uint32_t slot) {
     Children result;
@@ -244,13 +243,13 @@ CellTree subdivide(const Scene& scene, const SubdivideSettings& settings) {
     std::vector<Frontier> next;
     std::vector<CellTree> parts(frontier.size());
     std::vector<Builder::Children> children(frontier.size());
-    workers.run([&] {
-      tbb::parallel_for(size_t(0), frontier.size(), [&](size_t i) {
+    workers.for_parts(frontier.size(), 1, [&](size_t first, size_t last, size_t) {
+      for (size_t i = first; i < last; ++i) {
         Builder part = builder(settings.max_cells);
         part.tree.cells.resize(1);
         children[i] = part.step(std::move(frontier[i].cell), 0);
         parts[i] = std::move(part.tree);
-      });
+      }
     });
     for (size_t i = 0; i < frontier.size(); ++i) {
       append(top.tree, std::move(parts[i]), frontier[i].slot);
@@ -263,13 +262,13 @@ CellTree subdivide(const Scene& scene, const SubdivideSettings& settings) {
   }
 
   std::vector<CellTree> parts(frontier.size());
-  workers.run([&] {
-    tbb::parallel_for(size_t(0), frontier.size(), [&](size_t i) {
+  workers.for_parts(frontier.size(), 1, [&](size_t first, size_t last, size_t) {
+    for (size_t i = first; i < last; ++i) {
       Builder part = builder(settings.max_cells / frontier.size());
       part.tree.cells.resize(1);
       part.finish(std::move(frontier[i].cell), 0);
       parts[i] = std::move(part.tree);
-    });
+    }
   });
   for (size_t i = 0; i < frontier.size(); ++i)
     append(top.tree, std::move(parts[i]), frontier[i].slot);

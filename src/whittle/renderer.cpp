@@ -110,9 +110,8 @@ Picture Renderer::shade(const Frame& frame, const Camera& camera, const ShadeSet
                         int antialias) {
   State& s = *state_;
   const auto start = Clock::now();
-  Picture picture;
-  s.workers.run(
-      [&] { picture = shade_antialiased(tracer(), camera, frame, s.looks, settings, antialias); });
+  Picture picture =
+      shade_antialiased(tracer(), camera, frame, s.looks, settings, antialias, s.workers);
   s.times.shade = milliseconds_since(start);
   return picture;
 }

@@ -98,8 +98,9 @@ TEST_P(PovAgreement, TheSameSilhouetteAndTheSameColors) {
 
   const CpuSubject cpu(model, {});
   const Frame frame = cpu.tracer->render(camera, {});
-  const Picture ours = shade(frame, camera, appearances(model), settings);
-  const std::vector<uint8_t> edges = edge_mask(frame, camera);
+  const Workers workers(0);
+  const Picture ours = shade(frame, camera, appearances(model), settings, workers);
+  const std::vector<uint8_t> edges = edge_mask(frame, camera, workers);
   size_t hits = 0, silhouette = 0, inner = 0, off_at_edges = 0;
   int largest = 0;
   for (size_t i = 0; i < frame.hits.size(); ++i) {

@@ -1,8 +1,5 @@
 #include "trace/cpu/cpu.h"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -41,10 +38,7 @@ constexpr TileOrder kTileOrder;
 class CpuTracerImpl final : public CpuTracer {
  public:
   CpuTracerImpl(const Scene& scene, const CellTree& tree, int threads)
-      : scene_(scene),
-        tree_(tree),
-        workers_(threads),
-        scratch_([&scene, &tree] { return LaneScratch(scene, tree); }) {
+      : scene_(scene), tree_(tree), workers_(threads), scratches_(workers_) {
     WHITTLE_CHECK(tree.stats.depth < kMaxDepth);
   }
 
@@ -59,14 +53,17 @@ class CpuTracerImpl final : public CpuTracer {
     const int columns = (rect.width() + kTile - 1) / kTile,
               rows = (rect.height() + kTile - 1) / kTile;
     std::atomic<int> done = 0;
-    workers_.run([&] {
-      tbb::parallel_for(0, columns * rows, [&](int tile) {
-        trace_tile(camera, rect.x0 + tile % columns * kTile, rect.y0 + tile / columns * kTile, rect,
-                   frame);
-        const int now = ++done;
-        if (progress && now % columns == 0) progress(double(now) / (columns * rows));
-      });
-    });
+    workers_.for_parts(size_t(columns) * size_t(rows), 1,
+                       [&](size_t first, size_t last, size_t worker) {
+                         LaneScratch& scratch = scratches_.of(worker, scene_, tree_);
+                         for (int tile = int(first); tile < int(last); ++tile) {
+                           trace_tile(camera, rect.x0 + tile % columns * kTile,
+                                      rect.y0 + tile / columns * kTile, rect, frame, scratch);
+                           const int now = ++done;
+                           if (progress && now % columns == 0)
+                             progress(double(now) / (columns * rows));
+                         }
+                       });
     return frame;
   }
 
@@ -76,30 +73,29 @@ class CpuTracerImpl final : public CpuTracer {
       std::fill(hits.begin(), hits.end(), Hit{});
       return;
     }
-    workers_.run([&] {
-      tbb::parallel_for(
-          tbb::blocked_range<size_t>(0, positions.size(), kProbeChunk), [&](const auto& range) {
-            trace_lanes(scene_, tree_, camera, positions.subspan(range.begin(), range.size()),
-                        hits.subspan(range.begin(), range.size()), scratch_.local());
-          });
-    });
+    workers_.for_parts(
+        positions.size(), kProbeChunk, [&](size_t first, size_t last, size_t worker) {
+          trace_lanes(scene_, tree_, camera, positions.subspan(first, last - first),
+                      hits.subspan(first, last - first), scratches_.of(worker, scene_, tree_));
+        });
   }
 
   TraceStats stats() const override {
     TraceStats sum;
     sum.rays = rays_beside_;
-    for (const LaneScratch& scratch : scratch_) {
+    scratches_.for_each([&](const LaneScratch& scratch) {
       sum.rays += scratch.stats.rays;
       sum.cells += scratch.stats.cells;
       sum.leaves += scratch.stats.leaves;
       sum.literals += scratch.stats.literals;
       sum.disagreements += scratch.stats.disagreements + scratch.solver.disagreements;
-    }
+    });
     return sum;
   }
 
  private:
-  void trace_tile(const Camera& camera, int x0, int y0, const PixelRect& rect, Frame& frame) {
+  void trace_tile(const Camera& camera, int x0, int y0, const PixelRect& rect, Frame& frame,
+                  LaneScratch& scratch) {
     std::array<PixelPosition, size_t(kTile) * kTile> positions;
     std::array<Hit, size_t(kTile) * kTile> hits;
     size_t n = 0;
@@ -111,7 +107,7 @@ class CpuTracerImpl final : public CpuTracer {
     for (size_t i = 0; i < positions.size(); ++i)
       if (in_tile(i, x, y)) positions[n++] = {float(x) + 0.5f, float(y) + 0.5f};
     trace_lanes(scene_, tree_, camera, std::span(positions).first(n), std::span(hits).first(n),
-                scratch_.local());
+                scratch);
     n = 0;
     for (size_t i = 0; i < positions.size(); ++i)
       if (in_tile(i, x, y)) frame.at(x, y) = hits[n++];
@@ -125,7 +121,7 @@ class CpuTracerImpl final : public CpuTracer {
   const CellTree& tree_;
   uint64_t rays_beside_ = 0;  ///< rays of pixels that cannot see the region
   Workers workers_;
-  tbb::enumerable_thread_specific<LaneScratch> scratch_;
+  PerWorker<LaneScratch> scratches_;
 };
 
 }  // namespace

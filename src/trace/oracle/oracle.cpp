@@ -4,10 +4,6 @@
 #include <atomic>
 #include <cmath>
 
-#include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include "base/workers.h"
 #include "model/instances.h"
 #include "trace/oracle/boolean_tree.h"
@@ -63,15 +59,13 @@ class OracleTracer final : public Tracer {
  private:
   template <class Work>
   void for_ranges(size_t count, const Progress& progress, const Work& work) {
-    tbb::enumerable_thread_specific<Scratch> scratches([&] { return Scratch(tree_); });
+    PerWorker<Scratch> scratches(workers_);
     std::atomic<size_t> done = 0;
-    workers_.run([&] {
-      tbb::parallel_for(tbb::blocked_range<size_t>(0, count), [&](const auto& range) {
-        Scratch& scratch = scratches.local();
-        for (size_t i = range.begin(); i != range.end(); ++i) work(i, scratch);
-        const size_t so_far = done += range.size();
-        if (progress) progress(double(so_far) / double(count));
-      });
+    workers_.for_parts(count, 1, [&](size_t first, size_t last, size_t worker) {
+      Scratch& scratch = scratches.of(worker, tree_);
+      for (size_t i = first; i < last; ++i) work(i, scratch);
+      const size_t so_far = done += last - first;
+      if (progress) progress(double(so_far) / double(count));
     });
   }
 

@@ -1,0 +1,8 @@
+# What find_package(whittle) reads. The archives need these when a program is linked.
+include(CMakeFindDependencyMacro)
+find_dependency(TBB)
+find_dependency(hwy)
+find_dependency(fmt)
+find_dependency(PNG)
+find_dependency(OpenEXR)
+include(${CMAKE_CURRENT_LIST_DIR}/whittle-targets.cmake)
