@@ -159,7 +159,7 @@ std::vector<CoincidentScene> abutting_scenes() {
              cube(9);
            })",
        .owners = {{2, 4}, {3, 5}},
-       .looks = {{{15, 14, 13}, {0, 0, 0}}}},
+       .looks = {{{15, 14, 13}, {0, 0, 0}}, {{-4.6, -1, -2}, {0, 0, -1}, 1}}},
 
       {.name = "nested_spherical_shells",
        .text = R"(
@@ -172,7 +172,7 @@ std::vector<CoincidentScene> abutting_scenes() {
            })",
        .equal = "difference() { difference() { sphere(r = 5); sphere(r = 3); } cube(9); }",
        .owners = {{2, 4}, {3, 5}},
-       .looks = {{{15, 14, 13}, {0, 0, 0}}}},
+       .looks = {{{15, 14, 13}, {0, 0, 0}}, {{-4.6, -1, -1}, {0, 0, 0}, 1}}},
 
       {.name = "nested_tubes",
        .text = R"(

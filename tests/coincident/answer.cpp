@@ -90,7 +90,7 @@ void Answer::expect_seen_by(Tracer& tracer, const Affine& turn) {
     EXPECT_EQ(report.unexplained, 0) << report.first_difference;
     EXPECT_EQ(report.ambiguous_unmatched, 0) << report.first_difference;
     // So few edges run through a pixel's very centre; more would let faults hide.
-    EXPECT_LE(report.ambiguous, report.pixels / 1000);
+    EXPECT_LE(report.ambiguous, cameras_[i].width / 4);
   }
 }
 

@@ -187,7 +187,7 @@ std::vector<CoincidentScene> facet_scenes() {
        .equal = "cube(9);",
        .owners = {{1, 1, above(9)},
                   {1, 2, [](Vec3 p) { return p.x < 0; }},
-                  {1, 3, [](Vec3 p) { return p.x > 0 && p.z < 9; }}}},
+                  {1, 3, [](Vec3 p) { return p.x > 9 || p.y < 0 || p.y > 9 || p.z < 0; }}}},
 
       {.name = "box_on_the_ground",
        .text = "halfspace(n = [0, 0, 1], d = 0); translate([-2, -3, 0]) cube([4, 6, 5]);",
