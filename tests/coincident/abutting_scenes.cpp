@@ -76,7 +76,8 @@ std::vector<CoincidentScene> abutting_scenes() {
        .owners = {{1, 1, [](Vec3 p) { return p.z < 3; }},
                   {1, 2, [](Vec3 p) { return p.z > 3; }},
                   {2, 1, [](Vec3 p) { return p.z < 3; }},
-                  {2, 2, [](Vec3 p) { return p.x < 3; }}}},
+                  {2, 2, [](Vec3 p) { return p.x < 3; }}},
+       .looks = {{{8, 1, 8}, {2, 1.5, 2}, 1}, {{2, 1, 5}, {5, 2, 1}, 1}}},
 
       {.name = "stacked_cylinders",
        .text = "cylinder(h = 4, r = 4); translate([0, 0, 4]) cylinder(h = 4, r = 4);",

@@ -6,8 +6,6 @@
 namespace whittle {
 namespace {
 
-const char* const kNothing = "group();";
-
 /// One of every kind of primitive, apart from one another; with an operator, each of them is two
 /// alike under that operator.
 std::string of_every_kind(const std::string& op) {

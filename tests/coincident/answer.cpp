@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "model/instances.h"
 #include "support/adapted_tracer.h"
 #include "support/read_text.h"
@@ -92,6 +94,15 @@ void Answer::expect_seen_by(Tracer& tracer, const Affine& turn) {
     // So few edges run through a pixel's very centre; more would let faults hide.
     EXPECT_LE(report.ambiguous, cameras_[i].width / 4);
   }
+}
+
+double Answer::least_share_of_hits() const {
+  double least = 1;
+  for (const Frame& frame : expected_) {
+    const auto hits = std::ranges::count_if(frame.hits, [](const Hit& h) { return h.hit(); });
+    least = std::min(least, double(hits) / double(frame.hits.size()));
+  }
+  return least;
 }
 
 bool Answer::may_be_seen_as(const Ray& ray, const Hit& hit, uint32_t id) const {

@@ -22,6 +22,9 @@ class Answer {
   /// they are those of one side. Anything else is a failure of the test.
   void expect_seen_by(Tracer& tracer, const Affine& turn = {});
 
+  /// Of the pixels of the view that shows least.
+  double least_share_of_hits() const;
+
  private:
   bool may_be_seen_as(const Ray& ray, const Hit& hit, uint32_t id) const;
   bool is_near(const Where& where, Vec3 p) const;

@@ -16,6 +16,10 @@ class Coincident : public testing::TestWithParam<CoincidentScene> {};
 TEST_P(Coincident, Cpu) {
   const Model model = model_of(GetParam().text, GetParam().name);
   Answer answer(GetParam(), model, 512);
+  if (GetParam().equal == kNothing)
+    EXPECT_EQ(answer.least_share_of_hits(), 0);
+  else
+    EXPECT_GT(answer.least_share_of_hits(), 0.04) << "some view hardly looks at the scene";
   for (const uint32_t k : {2u, 6u}) {
     SCOPED_TRACE(k);
     const CpuSubject cpu(model, leaf_size(k));
@@ -34,7 +38,7 @@ class CoincidentTurned : public testing::TestWithParam<CoincidentScene> {};
 
 TEST_P(CoincidentTurned, Cpu) {
   const Model model = model_of(GetParam().text, GetParam().name);
-  Answer answer(GetParam(), model, 256);
+  Answer answer(GetParam(), model, 192);
   for (const bool mirrored : {false, true}) {
     SCOPED_TRACE(mirrored ? "mirrored" : "turned");
     const Affine turn = turn_of(model, mirrored);
@@ -66,6 +70,16 @@ std::vector<CoincidentScene> scenes_that_turn() {
   std::vector<CoincidentScene> all = scenes();
   std::erase_if(all, [](const CoincidentScene& scene) { return !scene.turns; });
   return all;
+}
+
+TEST(CoincidentScenes, AreReadWithoutComplaint) {
+  for (const CoincidentScene& scene : scenes())
+    for (const std::string& text : {scene.text, scene.equal}) {
+      const Result<Read> read = read_csg(text, scene.name);
+      ASSERT_TRUE(read) << read.error().message;
+      EXPECT_TRUE(read->warnings.empty()) << read->warnings[0] << '\n' << text;
+      EXPECT_FALSE(read->unsupported);
+    }
 }
 
 constexpr auto kName = [](const testing::TestParamInfo<CoincidentScene>& scene) {

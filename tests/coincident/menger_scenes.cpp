@@ -56,12 +56,14 @@ std::string by_cubes(int level) {
   return text;
 }
 
-CoincidentScene sponge(const std::string& name, const std::string& text, int level) {
+/// Looked at, besides from outside, from `eye` to `target`, in shares of its side.
+CoincidentScene sponge(const std::string& name, const std::string& text, int level,
+                       Vec3 eye = {0.52, 0.53, 0.51}, Vec3 target = {0.9, 0.7, 0.8}) {
   const double s = side_of(level);
   return {.name = name,
           .text = text,
           .equal = "",
-          .looks = {{Vec3{0.52, 0.53, 0.51} * s, Vec3{0.9, 0.7, 0.8} * s, 1}},
+          .looks = {{eye * s, target * s, 1}},
           .formula = grid_formula(text, sponge_cell(level))};
 }
 
@@ -77,7 +79,7 @@ std::vector<CoincidentScene> menger_scenes() {
     scenes.push_back(sponge("half_sponge_" + n,
                             fmt::format("intersection() {{ {} halfspace(n = [0, 0, 1], d = {}); }}",
                                         by_bars(level), middle),
-                            level));
+                            level, {0.3, 0.4, 0.9}, {0.5, 0.55, 0.3}));
     if (level < 3) scenes.push_back(sponge("sponge_by_cubes_" + n, by_cubes(level), level));
   }
   return scenes;

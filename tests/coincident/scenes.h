@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ namespace whittle {
 
 /// Where some of the surface lies, as a test on its points.
 using Where = std::function<bool(Vec3)>;
+
+/// An `equal` of which nothing is seen.
+inline constexpr const char* kNothing = "group();";
 
 struct Owner {
   uint32_t face = 0;   ///< id in the equivalent model
@@ -47,6 +51,11 @@ struct CoincidentScene {
   /// False: what is coincident here is finer than six digits, so the scene cannot be turned.
   bool turns = true;
 };
+
+/// How tests name it.
+inline void PrintTo(const CoincidentScene& scene, std::ostream* out) {
+  *out << scene.name;
+}
 
 // The chapters of the suite, a file each.
 std::vector<CoincidentScene> flush_scenes();      ///< pockets, bores and slots
