@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,6 +14,10 @@
 namespace whittle {
 
 namespace {
+
+/// Where a curved surface is as flat to the ray as this and its neighbour misses it, its limb is
+/// between: a surface a little larger shows any normal from here to one square to the ray.
+constexpr double kLimb = 0.02;
 
 constexpr int kLooks = 5;  ///< the centre, then the four displaced ones
 
@@ -55,23 +62,28 @@ bool is_certain(const Looks& looks, Vec3 eye) {
   return true;
 }
 
-/// Is `hit` the oracle's answer number `i`, allowing for what the agreement.h constants say?
-bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye) {
+/// Is `hit` the oracle's answer number `i`, allowing for what the agreement.h constants say, and
+/// for a surface that is `across` off?
+bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double across,
+             const AcceptsId& accepts) {
   const Hit& answer = looks.hits[size_t(i)];
   const Ray& ray = looks.rays[size_t(i)];
-  if (hit.id != answer.id) return false;
+  if (hit.hit() != answer.hit() || !accepts(ray, answer, hit.id)) return false;
   if (!hit.hit()) return !std::isfinite(hit.distance);
 
   if (std::fabs(length(to_double(hit.normal)) - 1) > kNormalAgreement) return false;
+  const double steepness = dot(to_double(answer.normal), ray.direction);
   double normal_spread = 0;
-  for (const Hit& other : looks.hits)
+  for (const Hit& other : looks.hits) {
     if (other.id == answer.id)
       normal_spread = std::max(normal_spread, normal_difference(other.normal, answer.normal));
+    else if (across > 0 && std::fabs(steepness) < kLimb)
+      normal_spread = std::max(normal_spread, std::fabs(steepness));
+  }
   if (!(normal_difference(hit.normal, answer.normal) <= kNormalAgreement + normal_spread))
     return false;
 
   double nearest = double(answer.distance), farthest = nearest;
-  const double steepness = dot(to_double(answer.normal), ray.direction);
   for (const Ray& other : looks.rays) {
     // Where the surface turns away within the five rays, its distance says nothing any more.
     if (steepness * dot(to_double(answer.normal), other.direction) <= 0) return true;
@@ -79,38 +91,64 @@ bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye) {
     nearest = std::min(nearest, expected);
     farthest = std::max(farthest, expected);
   }
-  const double slack = kDistanceAgreement * length(point_of(ray, answer) - eye);
+  // Towards a silhouette the way along the ray grows without bounds: the flatter of both counts.
+  const double flatter =
+      std::min(std::fabs(steepness), std::fabs(dot(to_double(hit.normal), ray.direction)));
+  const double slack = kDistanceAgreement * length(point_of(ray, answer) - eye) +
+                       (across > 0 ? across / flatter : 0);
   return double(hit.distance) >= nearest - slack && double(hit.distance) <= farthest + slack;
 }
 
-/// Calls `visit(pixel index, looks)` for every pixel, rows from the top.
+/// Calls `visit(pixel index, looks)` for the given pixels.
 template <class Visit>
-void look_at_pixels(Tracer& oracle, const Camera& camera, const Frame& frame, const Visit& visit) {
+void look_at_pixels(Tracer& oracle, const Camera& camera, const Frame& frame,
+                    std::span<const size_t> pixels, const Visit& visit) {
   static constexpr double kOffsets[kLooks][2] = {{0, 0},
                                                  {-kDisplacement, -kDisplacement},
                                                  {kDisplacement, -kDisplacement},
                                                  {-kDisplacement, kDisplacement},
                                                  {kDisplacement, kDisplacement}};
   constexpr size_t kExtra = kLooks - 1;
+  const auto center = [&](size_t pixel) {
+    return std::pair(double(pixel % size_t(camera.width)) + 0.5,
+                     double(pixel / size_t(camera.width)) + 0.5);
+  };
   std::vector<PixelPosition> positions;
-  for (int y = 0; y < camera.height; ++y)
-    for (int x = 0; x < camera.width; ++x)
-      for (int i = 1; i < kLooks; ++i)
-        positions.push_back({float(x + 0.5 + kOffsets[i][0]), float(y + 0.5 + kOffsets[i][1])});
+  for (const size_t pixel : pixels) {
+    const auto [x, y] = center(pixel);
+    for (int i = 1; i < kLooks; ++i)
+      positions.push_back({float(x + kOffsets[i][0]), float(y + kOffsets[i][1])});
+  }
   std::vector<Hit> hits(positions.size());
   oracle.probe(camera, positions, hits);
-  for (size_t pixel = 0; pixel < frame.hits.size(); ++pixel) {
+  for (size_t n = 0; n < pixels.size(); ++n) {
     Looks looks;
-    const int x = int(pixel) % camera.width, y = int(pixel) / camera.width;
-    looks.rays[0] = camera.ray(x + 0.5, y + 0.5);
-    looks.hits[0] = frame.hits[pixel];
+    const auto [x, y] = center(pixels[n]);
+    looks.rays[0] = camera.ray(x, y);
+    looks.hits[0] = frame.hits[pixels[n]];
     for (size_t i = 0; i < kExtra; ++i) {
-      const PixelPosition& p = positions[pixel * kExtra + i];
+      const PixelPosition& p = positions[n * kExtra + i];
       looks.rays[i + 1] = camera.ray(double(p.x), double(p.y));
-      looks.hits[i + 1] = hits[pixel * kExtra + i];
+      looks.hits[i + 1] = hits[n * kExtra + i];
     }
-    visit(pixel, looks);
+    visit(pixels[n], looks);
   }
+}
+
+std::vector<size_t> all_pixels(const Frame& frame) {
+  std::vector<size_t> pixels(frame.hits.size());
+  std::iota(pixels.begin(), pixels.end(), size_t(0));
+  return pixels;
+}
+
+/// Are the hits so much alike that no second look is needed? Half of what `matches` allows.
+bool are_alike(const Hit& a, const Hit& b) {
+  if (!a.hit() || !b.hit()) return a.hit() == b.hit();
+  const Vec3f n = a.normal - b.normal;
+  constexpr float kNormals = 0.5f * float(kNormalAgreement);
+  return std::fabs(a.distance - b.distance) <=
+             0.5f * float(kDistanceAgreement) * std::fabs(b.distance) &&
+         std::fabs(n.x) <= kNormals && std::fabs(n.y) <= kNormals && std::fabs(n.z) <= kNormals;
 }
 
 std::string describe(const Hit& hit) {
@@ -158,37 +196,75 @@ AgreementReport& operator+=(AgreementReport& sum, const AgreementReport& one) {
   return sum;
 }
 
-AgreementReport check_agreement(const Model& model, Tracer& subject, Tracer& oracle,
-                                const Camera& camera) {
-  const Frame expected = oracle.render(camera), seen = subject.render(camera);
-  AgreementReport report;
-  report.pixels = int(expected.hits.size());
-  if (seen.hits.size() != expected.hits.size()) {
-    report.unexplained = report.pixels;
-    report.first_difference = "the picture has another size";
-    return report;
-  }
-  look_at_pixels(oracle, camera, expected, [&](size_t pixel, const Looks& looks) {
+namespace {
+
+/// Compares the given pixels and adds what it finds to the report.
+void check_pixels(const Model& model, const char* subject, const Frame& seen, Tracer& oracle,
+                  const Frame& expected, std::span<const size_t> pixels, const Camera& camera,
+                  double across, const AcceptsId& accepts, AgreementReport& report) {
+  look_at_pixels(oracle, camera, expected, pixels, [&](size_t pixel, const Looks& looks) {
     const bool certain = is_certain(looks, camera.eye);
     const Hit& hit = seen.hits[pixel];
-    report.hits += looks.hits[0].hit();
     report.ambiguous += !certain;
     bool matched = false;
     for (int i = 0; i < (certain ? 1 : kLooks); ++i)
-      matched = matched || matches(hit, looks, i, camera.eye);
+      matched = matched || matches(hit, looks, i, camera.eye, across, accepts);
     if (matched) return;
     ++(certain ? report.unexplained : report.ambiguous_unmatched);
     // A certain pixel tells more than an ambiguous one seen before it.
     if (report.first_difference.empty() || (certain && report.unexplained == 1))
       report.first_difference =
-          describe_difference(model, camera, pixel, looks, certain, subject.name(), hit);
+          describe_difference(model, camera, pixel, looks, certain, subject, hit);
   });
+}
+
+/// The report before any pixel is compared; its `unexplained` says if the pictures cannot be.
+AgreementReport first_report(const Frame& seen, const Frame& expected) {
+  AgreementReport report;
+  report.pixels = int(expected.hits.size());
+  for (const Hit& hit : expected.hits) report.hits += hit.hit();
+  if (seen.hits.size() != expected.hits.size()) {
+    report.unexplained = report.pixels;
+    report.first_difference = "the picture has another size";
+  }
+  return report;
+}
+
+}  // namespace
+
+AgreementReport check_agreement(const Model& model, Tracer& subject, Tracer& oracle,
+                                const Camera& camera) {
+  const Frame expected = oracle.render(camera), seen = subject.render(camera);
+  AgreementReport report = first_report(seen, expected);
+  if (report.unexplained > 0) return report;
+  const AcceptsId same_id = [](const Ray&, const Hit& hit, uint32_t id) { return hit.id == id; };
+  check_pixels(model, subject.name(), seen, oracle, expected, all_pixels(expected), camera, 0,
+               same_id, report);
+  return report;
+}
+
+AgreementReport check_pictures(const Model& model, const Frame& seen, Tracer& oracle,
+                               const Frame& expected, const Camera& camera,
+                               const AcceptsId& accepts) {
+  AgreementReport report = first_report(seen, expected);
+  if (report.unexplained > 0) return report;
+  std::vector<size_t> different;
+  for (size_t i = 0; i < expected.hits.size(); ++i) {
+    const Hit &hit = seen.hits[i], &answer = expected.hits[i];
+    if (!are_alike(hit, answer) ||
+        (answer.hit() && !accepts(camera.ray(double(i % size_t(camera.width)) + 0.5,
+                                             double(i / size_t(camera.width)) + 0.5),
+                                  answer, hit.id)))
+      different.push_back(i);
+  }
+  check_pixels(model, "the subject", seen, oracle, expected, different, camera,
+               tolerance(bounds(model)), accepts, report);
   return report;
 }
 
 std::vector<uint8_t> ambiguous_pixels(Tracer& oracle, const Camera& camera, const Frame& frame) {
   std::vector<uint8_t> ambiguous(frame.hits.size());
-  look_at_pixels(oracle, camera, frame, [&](size_t pixel, const Looks& looks) {
+  look_at_pixels(oracle, camera, frame, all_pixels(frame), [&](size_t pixel, const Looks& looks) {
     ambiguous[pixel] = !is_certain(looks, camera.eye);
   });
   return ambiguous;
