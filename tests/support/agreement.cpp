@@ -56,7 +56,7 @@ bool is_certain(const Looks& looks, Vec3 eye) {
 }
 
 /// Is `hit` the oracle's answer number `i`, allowing for what the agreement.h constants say?
-bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double model_tolerance) {
+bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye) {
   const Hit& answer = looks.hits[size_t(i)];
   const Ray& ray = looks.rays[size_t(i)];
   if (hit.id != answer.id) return false;
@@ -79,8 +79,7 @@ bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double model_t
     nearest = std::min(nearest, expected);
     farthest = std::max(farthest, expected);
   }
-  const double slack = kDistanceAgreement * length(point_of(ray, answer) - eye) +
-                       model_tolerance / std::fabs(steepness);
+  const double slack = kDistanceAgreement * length(point_of(ray, answer) - eye);
   return double(hit.distance) >= nearest - slack && double(hit.distance) <= farthest + slack;
 }
 
@@ -161,7 +160,6 @@ AgreementReport& operator+=(AgreementReport& sum, const AgreementReport& one) {
 
 AgreementReport check_agreement(const Model& model, Tracer& subject, Tracer& oracle,
                                 const Camera& camera) {
-  const double model_tolerance = tolerance(bounds(model));
   const Frame expected = oracle.render(camera), seen = subject.render(camera);
   AgreementReport report;
   report.pixels = int(expected.hits.size());
@@ -177,7 +175,7 @@ AgreementReport check_agreement(const Model& model, Tracer& subject, Tracer& ora
     report.ambiguous += !certain;
     bool matched = false;
     for (int i = 0; i < (certain ? 1 : kLooks); ++i)
-      matched = matched || matches(hit, looks, i, camera.eye, model_tolerance);
+      matched = matched || matches(hit, looks, i, camera.eye);
     if (matched) return;
     ++(certain ? report.unexplained : report.ambiguous_unmatched);
     // A certain pixel tells more than an ambiguous one seen before it.
