@@ -24,3 +24,10 @@ if(WHITTLE_SANITIZE)
     add_compile_options(-Wno-maybe-uninitialized)  # false alarms in what GCC itself inserts
   endif()
 endif()
+
+if(WHITTLE_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang" OR NOT WHITTLE_TESTS)
+    message(FATAL_ERROR "WHITTLE_FUZZ needs clang and WHITTLE_TESTS: cmake --preset fuzz")
+  endif()
+  add_compile_options(-fsanitize=fuzzer-no-link)  # what the fuzzer learns coverage from
+endif()

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -55,6 +57,17 @@ bool is_certain(const Looks& looks, Vec3 eye) {
   return true;
 }
 
+/// Does the hit's own ray only touch the surface of that answer, where other looks miss it? Whether
+/// it meets it is then a matter of rounding, and where it does the other looks cannot tell.
+bool touches(const Hit& hit, const Looks& looks, const Hit& answer, const Ray& answer_ray) {
+  const bool some_miss = std::any_of(looks.hits.begin(), looks.hits.end(),
+                                     [&](const Hit& other) { return other.id != answer.id; });
+  const double to_silhouette = std::fabs(dot(to_double(answer.normal), answer_ray.direction));
+  return some_miss &&
+         std::fabs(dot(to_double(hit.normal), looks.rays[0].direction)) <= kNormalAgreement &&
+         normal_difference(hit.normal, answer.normal) <= kNormalAgreement + 1.5 * to_silhouette;
+}
+
 /// Is `hit` the oracle's answer number `i`, allowing for what the agreement.h constants say?
 bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double model_tolerance) {
   const Hit& answer = looks.hits[size_t(i)];
@@ -63,6 +76,7 @@ bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double model_t
   if (!hit.hit()) return !std::isfinite(hit.distance);
 
   if (std::fabs(length(to_double(hit.normal)) - 1) > kNormalAgreement) return false;
+  if (touches(hit, looks, answer, ray)) return true;
   double normal_spread = 0;
   for (const Hit& other : looks.hits)
     if (other.id == answer.id)
@@ -84,9 +98,21 @@ bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double model_t
   return double(hit.distance) >= nearest - slack && double(hit.distance) <= farthest + slack;
 }
 
-/// Calls `visit(pixel index, looks)` for every pixel, rows from the top.
+std::vector<size_t> all_pixels(const Frame& frame) {
+  std::vector<size_t> pixels(frame.hits.size());
+  std::iota(pixels.begin(), pixels.end(), size_t(0));
+  return pixels;
+}
+
+/// The ray through a pixel's centre.
+Ray center_ray(const Camera& camera, size_t pixel) {
+  return camera.ray(int(pixel) % camera.width + 0.5, int(pixel) / camera.width + 0.5);
+}
+
+/// Calls `visit(pixel index, looks)` for the given pixels.
 template <class Visit>
-void look_at_pixels(Tracer& oracle, const Camera& camera, const Frame& frame, const Visit& visit) {
+void look_at_pixels(Tracer& oracle, const Camera& camera, const Frame& frame,
+                    std::span<const size_t> pixels, const Visit& visit) {
   static constexpr double kOffsets[kLooks][2] = {{0, 0},
                                                  {-kDisplacement, -kDisplacement},
                                                  {kDisplacement, -kDisplacement},
@@ -94,23 +120,23 @@ void look_at_pixels(Tracer& oracle, const Camera& camera, const Frame& frame, co
                                                  {kDisplacement, kDisplacement}};
   constexpr size_t kExtra = kLooks - 1;
   std::vector<PixelPosition> positions;
-  for (int y = 0; y < camera.height; ++y)
-    for (int x = 0; x < camera.width; ++x)
-      for (int i = 1; i < kLooks; ++i)
-        positions.push_back({float(x + 0.5 + kOffsets[i][0]), float(y + 0.5 + kOffsets[i][1])});
+  for (const size_t pixel : pixels) {
+    const int x = int(pixel) % camera.width, y = int(pixel) / camera.width;
+    for (int i = 1; i < kLooks; ++i)
+      positions.push_back({float(x + 0.5 + kOffsets[i][0]), float(y + 0.5 + kOffsets[i][1])});
+  }
   std::vector<Hit> hits(positions.size());
   oracle.probe(camera, positions, hits);
-  for (size_t pixel = 0; pixel < frame.hits.size(); ++pixel) {
+  for (size_t n = 0; n < pixels.size(); ++n) {
     Looks looks;
-    const int x = int(pixel) % camera.width, y = int(pixel) / camera.width;
-    looks.rays[0] = camera.ray(x + 0.5, y + 0.5);
-    looks.hits[0] = frame.hits[pixel];
+    looks.rays[0] = center_ray(camera, pixels[n]);
+    looks.hits[0] = frame.hits[pixels[n]];
     for (size_t i = 0; i < kExtra; ++i) {
-      const PixelPosition& p = positions[pixel * kExtra + i];
+      const PixelPosition& p = positions[n * kExtra + i];
       looks.rays[i + 1] = camera.ray(double(p.x), double(p.y));
-      looks.hits[i + 1] = hits[pixel * kExtra + i];
+      looks.hits[i + 1] = hits[n * kExtra + i];
     }
-    visit(pixel, looks);
+    visit(pixels[n], looks);
   }
 }
 
@@ -134,6 +160,52 @@ std::string describe_difference(const Model& model, const Camera& camera, size_t
     for (int i = 1; i < kLooks; ++i)
       text += fmt::format("  or, close by, {}\n", describe(looks.hits[size_t(i)]));
   return text;
+}
+
+/// The pixels whose answer is not the oracle's at the centre. One that is needs no second look:
+/// what the other looks add can only forgive more.
+std::vector<size_t> different_pixels(const Camera& camera, const Frame& expected, const Frame& seen,
+                                     double model_tolerance) {
+  std::vector<size_t> pixels;
+  for (size_t pixel = 0; pixel < expected.hits.size(); ++pixel) {
+    Looks one;
+    one.rays.fill(center_ray(camera, pixel));
+    one.hits.fill(expected.hits[pixel]);
+    if (!matches(seen.hits[pixel], one, 0, camera.eye, model_tolerance)) pixels.push_back(pixel);
+  }
+  return pixels;
+}
+
+AgreementReport compare(const Model& model, Tracer& subject, Tracer& oracle, const Camera& camera,
+                        bool only_different) {
+  const double model_tolerance = tolerance(bounds(model));
+  const Frame expected = oracle.render(camera), seen = subject.render(camera);
+  AgreementReport report;
+  report.pixels = int(expected.hits.size());
+  if (seen.hits.size() != expected.hits.size()) {
+    report.unexplained = report.pixels;
+    report.first_difference = "the picture has another size";
+    return report;
+  }
+  for (const Hit& hit : expected.hits) report.hits += hit.hit();
+  const std::vector<size_t> pixels = only_different
+                                         ? different_pixels(camera, expected, seen, model_tolerance)
+                                         : all_pixels(expected);
+  look_at_pixels(oracle, camera, expected, pixels, [&](size_t pixel, const Looks& looks) {
+    const bool certain = is_certain(looks, camera.eye);
+    const Hit& hit = seen.hits[pixel];
+    report.ambiguous += !certain;
+    bool matched = false;
+    for (int i = 0; i < (certain ? 1 : kLooks); ++i)
+      matched = matched || matches(hit, looks, i, camera.eye, model_tolerance);
+    if (matched) return;
+    ++(certain ? report.unexplained : report.ambiguous_unmatched);
+    // A certain pixel tells more than an ambiguous one seen before it.
+    if (report.first_difference.empty() || (certain && report.unexplained == 1))
+      report.first_difference =
+          describe_difference(model, camera, pixel, looks, certain, subject.name(), hit);
+  });
+  return report;
 }
 
 Camera look_at(Vec3 target, Vec3 from_direction, double distance, int width, int height) {
@@ -161,36 +233,17 @@ AgreementReport& operator+=(AgreementReport& sum, const AgreementReport& one) {
 
 AgreementReport check_agreement(const Model& model, Tracer& subject, Tracer& oracle,
                                 const Camera& camera) {
-  const double model_tolerance = tolerance(bounds(model));
-  const Frame expected = oracle.render(camera), seen = subject.render(camera);
-  AgreementReport report;
-  report.pixels = int(expected.hits.size());
-  if (seen.hits.size() != expected.hits.size()) {
-    report.unexplained = report.pixels;
-    report.first_difference = "the picture has another size";
-    return report;
-  }
-  look_at_pixels(oracle, camera, expected, [&](size_t pixel, const Looks& looks) {
-    const bool certain = is_certain(looks, camera.eye);
-    const Hit& hit = seen.hits[pixel];
-    report.hits += looks.hits[0].hit();
-    report.ambiguous += !certain;
-    bool matched = false;
-    for (int i = 0; i < (certain ? 1 : kLooks); ++i)
-      matched = matched || matches(hit, looks, i, camera.eye, model_tolerance);
-    if (matched) return;
-    ++(certain ? report.unexplained : report.ambiguous_unmatched);
-    // A certain pixel tells more than an ambiguous one seen before it.
-    if (report.first_difference.empty() || (certain && report.unexplained == 1))
-      report.first_difference =
-          describe_difference(model, camera, pixel, looks, certain, subject.name(), hit);
-  });
-  return report;
+  return compare(model, subject, oracle, camera, false);
+}
+
+AgreementReport find_differences(const Model& model, Tracer& subject, Tracer& oracle,
+                                 const Camera& camera) {
+  return compare(model, subject, oracle, camera, true);
 }
 
 std::vector<uint8_t> ambiguous_pixels(Tracer& oracle, const Camera& camera, const Frame& frame) {
   std::vector<uint8_t> ambiguous(frame.hits.size());
-  look_at_pixels(oracle, camera, frame, [&](size_t pixel, const Looks& looks) {
+  look_at_pixels(oracle, camera, frame, all_pixels(frame), [&](size_t pixel, const Looks& looks) {
     ambiguous[pixel] = !is_certain(looks, camera.eye);
   });
   return ambiguous;
