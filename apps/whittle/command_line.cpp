@@ -73,6 +73,9 @@ void add_loading_options(CLI::App& app, Loading& loading) {
   group.add_choice("--curves", curves_choices(), "kind of curves",
                    "{}; auto: facets where $fn asks for them",
                    [&](Curves curves) { loading.options.curves = curves; });
+  group.add_choice("--matrices", matrices_choices(), "kind of matrices",
+                   "{}; polished: rotations printed\nwith six digits are rotations again",
+                   [&](bool polish) { loading.options.polish = polish; });
   group.add_flag("--strict", loading.strict, "fail if anything in FILE is not supported");
   group.add_flag("-q,--quiet", loading.quiet, "say nothing but errors");
 }

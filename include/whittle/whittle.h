@@ -42,7 +42,8 @@ class Failure : public std::runtime_error {
 using Point = std::array<double, 3>;
 
 struct LoadOptions {
-  std::string curves = "auto";  ///< "auto", "facets" or "smooth"
+  std::string curves = "auto";        ///< "auto", "facets" or "smooth"
+  std::string matrices = "polished";  ///< or "as-written": rotations keep the error of six digits
 };
 
 struct RenderOptions {

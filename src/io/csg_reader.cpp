@@ -21,6 +21,7 @@
 #include "io/csg_statements.h"
 #include "io/csg_values.h"
 #include "io/flat_shapes.h"
+#include "io/polish.h"
 #include "io/read.h"
 #include "io/tree_edit.h"
 #include "io/warnings.h"
@@ -311,7 +312,8 @@ bool CsgReader::set_meaning(const Statement& statement, std::string_view name, u
     case Meaning::kRotate:
     case Meaning::kScale:
     case Meaning::kMirror: {
-      const Affine map = make_transform(statement, warnings_);
+      Affine map = make_transform(statement, warnings_);
+      if (options_.polish && statement.type->meaning == Meaning::kMultmatrix) map = polished(map);
       if (map == Affine{}) return true;
       node.kind = NodeKind::kTransform;
       node.payload = static_cast<uint32_t>(model_.transforms.size());

@@ -20,6 +20,7 @@ namespace whittle {
 /// How to read, and what is too much. A limit that is passed is an error that names it.
 struct ReadOptions {
   Curves curves = Curves::kAuto;
+  bool polish = true;  ///< rotations in `multmatrix` get back what printing took (polish.h)
   uint32_t max_depth = 1'000'000;  ///< statements inside statements
   size_t max_nodes = 200'000'000;  ///< nodes of the tree, before it is simplified
   size_t max_facets = 50'000'000;  ///< flat faces of all spheres, cylinders and polyhedra together

@@ -14,6 +14,12 @@ namespace {
 /// boxes around its facets would save nothing.
 constexpr uint32_t kManyFaces = 12;
 
+/// Merging may move a face by the tolerance; margins are a little more than that.
+Box grown(const Box& box, double margin) {
+  const Vec3 all{margin, margin, margin};
+  return {box.lo - all, box.hi + all};
+}
+
 /// Merging may move a plane by the tolerance, and so a facet's corner by much more where it meets
 /// its neighbours at small angles. Boxes that are too large only cost time.
 void add_face_boxes(const Shape& shape, const Affine& local_from_object, Unit& unit, Scene& scene) {
@@ -21,9 +27,7 @@ void add_face_boxes(const Shape& shape, const Affine& local_from_object, Unit& u
   if (boxes.size() != unit.face_count) return;
   unit.first_box = uint32_t(scene.face_boxes.size());
   for (Box& box : boxes) {
-    const double margin = 0.05 * box.diagonal() + 10 * scene.tolerance;
-    box.lo -= Vec3{margin, margin, margin};
-    box.hi += Vec3{margin, margin, margin};
+    box = grown(box, 0.05 * box.diagonal() + 10 * scene.tolerance);
   }
   scene.face_boxes.insert(scene.face_boxes.end(), boxes.begin(), boxes.end());
 }
@@ -143,7 +147,7 @@ Result<Scene> lower(const Model& model) {
   scene.region = {region.lo - scene.origin, region.hi - scene.origin};
 
   const Affine local_from_world = translation(-scene.origin);
-  HalfSpaceTable table(max_component(scene.region.size()) / 2, scene.tolerance);
+  HalfSpaceTable table(max_component(scene.region.size()) / 2);
   std::vector<uint32_t> unit_of_node(model.nodes.size(), 0);
   LoweredPrimitive lowered;
   for (const Instance& instance : instances(model)) {
@@ -151,18 +155,23 @@ Result<Scene> lower(const Model& model) {
     Unit unit;
     unit.id = primitive.id;
     unit.first_face = uint32_t(scene.faces.size());
-    lowered.surfaces.clear();
+    lowered.half_spaces.clear();
     if (!instance.empty)
       lower_primitive(primitive.shape, local_from_world * instance.world_from_object, lowered);
     const uint32_t number = uint32_t(scene.units.size());
-    for (const auto& [half_space, extent] : lowered.surfaces)
-      scene.faces.push_back({table.add(half_space, extent), number});
+    const Extent extent = within(lowered.extent, scene.region);
+    const double tolerance = own_tolerance(scene.tolerance, extent);
+    const Reach reach = {extent.center, extent.radius,   extent.width,
+                         tolerance,     lowered.outline, lowered.is_ball};
+    for (const HalfSpace& half_space : lowered.half_spaces)
+      scene.faces.push_back({table.add(half_space, reach), number});
     unit.face_count = uint32_t(scene.faces.size()) - unit.first_face;
     if (unit.face_count > 1)
-      unit.outer = transform(local_from_world, instance_box(model, instance));
+      unit.outer =
+          grown(transform(local_from_world, instance_box(model, instance)), 10 * tolerance);
     if (unit.face_count >= kManyFaces) {
-      unit.inner_center = lowered.inner_center;
-      unit.inner_radius = lowered.inner_radius;
+      unit.inner_center = lowered.extent.center;
+      unit.inner_radius = std::max(0.0, lowered.extent.width / 2 - tolerance);
       add_face_boxes(primitive.shape, local_from_world * instance.world_from_object, unit, scene);
     }
     if (scene.faces.size() >= Token::kMaxPayload) return too_large();

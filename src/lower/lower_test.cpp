@@ -60,11 +60,27 @@ TEST(Lower, DifferentCurvedWallsStayDifferent) {
   EXPECT_EQ(scene.half_spaces.size(), 3u);
 }
 
+TEST(Lower, APrimitiveIsNeverEatenByTheTolerance) {
+  // The tolerance of this model is 2; the small parts keep their faces to a thousandth of their own
+  // width.
+  const Scene scene = lowered(
+      "cube(1000000); translate([-5,0,0]) cube(0.000001); translate([-5,9,0]) cube([1,1,0.001]);"
+      "translate([-9,0,0]) difference(){sphere(0.01); sphere(0.0099);}");
+  EXPECT_GE(scene.tolerance, 2.0);
+  for (const Unit& unit : scene.units)
+    for (uint32_t i = 0; i < unit.face_count; ++i)
+      for (uint32_t j = 0; j < i; ++j)
+        EXPECT_NE(scene.faces[unit.first_face + i].literal >> 1,
+                  scene.faces[unit.first_face + j].literal >> 1);
+  EXPECT_NE(scene.faces.back().literal, scene.faces[scene.faces.size() - 2].literal);
+}
+
 TEST(HalfSpaceTable, NearlyEqualPlanesDoNotChain) {
   const double tolerance = 1e-6;
-  HalfSpaceTable table(1, tolerance);
+  HalfSpaceTable table(1);
+  const Reach reach{{}, 1, 1, tolerance, {}, false};
   for (int i = 0; i < 100; ++i)
-    table.add({{0, 0, i * 0.75 * tolerance}, {{}, {}, {0, 0, 0.5}, 0}, SurfaceKind::kPlane}, 1);
+    table.add({{0, 0, i * 0.75 * tolerance}, {{}, {}, {0, 0, 0.5}, 0}, SurfaceKind::kPlane}, reach);
   // Each representative takes in the next one and no more.
   EXPECT_EQ(table.take().size(), 50u);
 }
@@ -72,7 +88,7 @@ TEST(HalfSpaceTable, NearlyEqualPlanesDoNotChain) {
 TEST(HalfSpaceTable, FindsEqualsAcrossBucketBorders) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> unit(-1, 1);
-  HalfSpaceTable table(1, 1e-6);
+  HalfSpaceTable table(1);
   for (int i = 0; i < 5000; ++i) {
     const HalfSpace h{{unit(random), unit(random), unit(random)},
                       {{}, {}, normalize(Vec3{unit(random), unit(random), unit(random)}) * 0.5, 0},
@@ -81,9 +97,10 @@ TEST(HalfSpaceTable, FindsEqualsAcrossBucketBorders) {
     moved.center += moved.f.b * (1.9e-6 * unit(random));
     HalfSpace turned = moved;
     turned.f.b = -turned.f.b;
-    const Literal first = table.add(h, 1);
-    EXPECT_EQ(table.add(moved, 1), first);
-    EXPECT_EQ(table.add(turned, 1), first ^ 1);
+    const Reach reach{h.center, 1, 1, 1e-6, {}, false};
+    const Literal first = table.add(h, reach);
+    EXPECT_EQ(table.add(moved, reach), first);
+    EXPECT_EQ(table.add(turned, reach), first ^ 1);
   }
 }
 
@@ -131,9 +148,8 @@ TEST(PrimitiveFaces, TheirConjunctionIsThePrimitive) {
       for (int j = 0; j < 50; ++j) {
         const Vec3 p = Vec3{unit(random), unit(random), unit(random)} * 2.5;
         bool conjunction = true, close = false;
-        for (const auto& surface : lowered.surfaces) {
-          const double f = Kernels<double>::quadric_value(surface.half_space.f,
-                                                          map.point(p) - surface.half_space.center);
+        for (const HalfSpace& surface : lowered.half_spaces) {
+          const double f = Kernels<double>::quadric_value(surface.f, map.point(p) - surface.center);
           conjunction &= f <= 0;
           close |= std::fabs(f) < 1e-9;
         }
@@ -149,7 +165,7 @@ TEST(PrimitiveFaces, ValueIsAtMostTheDistance) {
   // |gradient| <= 1 at the surface, and 1 where it is steepest: tolerances are lengths.
   LoweredPrimitive lowered;
   lower_primitive(Sphere{2, 0}, scaling({3, 1, 1}), lowered);
-  const HalfSpace& h = lowered.surfaces[0].half_space;
+  const HalfSpace& h = lowered.half_spaces[0];
   using K = Kernels<double>;
   EXPECT_NEAR(2 * length(K::quadric_half_gradient(h.f, {0, 2, 0})), 1, 1e-12);
   EXPECT_NEAR(2 * length(K::quadric_half_gradient(h.f, {6, 0, 0})), 1.0 / 3, 1e-12);

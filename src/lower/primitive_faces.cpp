@@ -40,43 +40,35 @@ struct Builder {
   Affine object_from_local;
   LoweredPrimitive& out;
 
-  void plane(const Plane& p, Vec3 near_point, double extent) {
+  void plane(const Plane& p, Vec3 near_point) {
     // A point of the plane next to the primitive's middle keeps later numbers small.
     const Vec3 foot = near_point + p.n * (p.d - dot(p.n, near_point));
-    out.surfaces.push_back(
-        {plane_half_space(object_from_local.transposed_vector(p.n), local_from_object.point(foot)),
-         extent});
+    out.half_spaces.push_back(
+        plane_half_space(object_from_local.transposed_vector(p.n), local_from_object.point(foot)));
   }
 
   void flat(const Shape& shape) {
     const std::vector<Plane> planes = facet_planes(shape);
     const std::vector<Vec3> vertices = facet_vertices(shape);
+    out.extent = flat_extent(vertices, planes, local_from_object);
     Vec3 middle;
     for (const Vec3& v : vertices) middle += v / double(vertices.size());
-    double extent = 0;
-    for (const Vec3& v : vertices)
-      extent = std::max(extent, length(local_from_object.vector(v - middle)));
-    out.surfaces.reserve(planes.size());
-    for (const Plane& p : planes) plane(p, middle, 2 * extent);
-    if (vertices.empty()) return;
-    out.inner_center = local_from_object.point(middle);
-    out.inner_radius = kInfinity;
-    for (const auto& surface : out.surfaces)
-      out.inner_radius = std::min(
-          out.inner_radius,
-          -K::quadric_value(surface.half_space.f, out.inner_center - surface.half_space.center));
-    out.inner_radius = std::max(0.0, out.inner_radius);
+    out.half_spaces.reserve(planes.size());
+    for (const Plane& p : planes) plane(p, middle);
+  }
+
+  void curved(const Shape& shape) {
+    out.extent = extent(shape, local_from_object);
+    out.outline = outline(shape);
+    for (Vec3& p : out.outline) p = local_from_object.point(p);
   }
 
   void sphere(const Sphere& s) {
+    out.is_ball = true;
     K::Quadric f{{}, {}, {}, -s.r * s.r};
     for (const Vec3& row : object_from_local.row) add_square(f, row, 1);
     const double steepest = max_component(f.diag);
-    const double extent =
-        s.r * (length(local_from_object.row[0]) + length(local_from_object.row[1]) +
-               length(local_from_object.row[2]));
-    out.surfaces.push_back(
-        {quadric_half_space(f, local_from_object.translation, steepest), extent});
+    out.half_spaces.push_back(quadric_half_space(f, local_from_object.translation, steepest));
   }
 
   void cylinder(const Cylinder& c) {
@@ -89,33 +81,31 @@ struct Builder {
     add_square(f, row[1], 1);
     const double steepest = max_component(f.diag);
     add_square(f, row[2], -s * s);
-    const double r_max = std::max(c.r1, c.r2);
-    const double extent = length(Vec3{length(local_from_object.vector({r_max, 0, 0})),
-                                      length(local_from_object.vector({0, r_max, 0})),
-                                      length(local_from_object.vector({0, 0, c.h / 2}))}) *
-                          std::sqrt(2.0);
     const Vec3 middle{0, 0, z_mid};
-    out.surfaces.push_back(
-        {quadric_half_space(f, local_from_object.point(middle), steepest), extent});
-    plane({{0, 0, -1}, -z_low}, middle, extent);
-    plane({{0, 0, 1}, z_high}, middle, extent);
+    out.half_spaces.push_back(quadric_half_space(f, local_from_object.point(middle), steepest));
+    plane({{0, 0, -1}, -z_low}, middle);
+    plane({{0, 0, 1}, z_high}, middle);
   }
 };
 
 }  // namespace
 
 void lower_primitive(const Shape& shape, const Affine& local_from_object, LoweredPrimitive& out) {
-  out.surfaces.clear();
-  out.inner_radius = 0;
+  out.half_spaces.clear();
+  out.outline.clear();
+  out.is_ball = false;
   Builder builder{local_from_object, inverse(local_from_object), out};
-  if (is_flat(shape))
+  if (is_flat(shape)) {
     builder.flat(shape);
-  else if (const auto* sphere = std::get_if<Sphere>(&shape))
-    builder.sphere(*sphere);
-  else
-    builder.cylinder(std::get<Cylinder>(shape));
-  const auto finite = [](const auto& surface) { return is_finite(surface.half_space); };
-  if (!std::all_of(out.surfaces.begin(), out.surfaces.end(), finite)) out.surfaces.clear();
+  } else {
+    builder.curved(shape);
+    if (const auto* sphere = std::get_if<Sphere>(&shape))
+      builder.sphere(*sphere);
+    else
+      builder.cylinder(std::get<Cylinder>(shape));
+  }
+  const auto finite = [](const HalfSpace& h) { return is_finite(h); };
+  if (!std::ranges::all_of(out.half_spaces, finite)) out.half_spaces.clear();
 }
 
 }  // namespace whittle

@@ -5,24 +5,22 @@
 
 #include "base/affine.h"
 #include "lower/scene.h"
+#include "model/extent.h"
 #include "model/model.h"
 
 namespace whittle {
 
 /// A primitive in local coordinates.
 struct LoweredPrimitive {
-  struct Surface {
-    HalfSpace half_space;
-    double extent;  ///< the primitive's surface lies within this distance of the centre
-  };
-  std::vector<Surface> surfaces;  ///< their conjunction is the primitive; empty: the empty set
-  Vec3 inner_center;              ///< a ball that the primitive holds; radius 0 if not computed
-  double inner_radius = 0;
+  std::vector<HalfSpace> half_spaces;  ///< their conjunction is the primitive; empty: the empty set
+  Extent extent;
+  std::vector<Vec3> outline;  ///< of its curved surface; empty if it has none
+  bool is_ball = false;       ///< that surface is a sphere's, not a cylinder's or cone's
 };
 
 /// Lowers one shape (not empty) under an invertible transform. The true sphere is one quadric,
 /// the true cylinder or cone a quadric and two planes, everything flat its facets. If numbers
-/// overflow there are no surfaces. `out` is reused.
+/// overflow there are no half-spaces. `out` is reused.
 void lower_primitive(const Shape& shape, const Affine& local_from_object, LoweredPrimitive& out);
 
 }  // namespace whittle

@@ -12,6 +12,7 @@ constexpr Choice<Style> kStyles[] = {
     {"studio", Style::kStudio}, {"blinn", Style::kBlinn}, {"openscad", Style::kOpenscad}};
 constexpr Choice<Curves> kCurves[] = {
     {"auto", Curves::kAuto}, {"facets", Curves::kFacets}, {"smooth", Curves::kSmooth}};
+constexpr Choice<bool> kMatrices[] = {{"polished", true}, {"as-written", false}};
 constexpr Choice<SplitRule> kSplits[] = {{"longest", SplitRule::kLongest},
                                          {"xyz", SplitRule::kXyz}};
 constexpr Choice<bool> kProjections[] = {
@@ -34,6 +35,9 @@ Choices<Style> style_choices() {
 }
 Choices<Curves> curves_choices() {
   return kCurves;
+}
+Choices<bool> matrices_choices() {
+  return kMatrices;
 }
 Choices<SplitRule> split_choices() {
   return kSplits;

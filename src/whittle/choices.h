@@ -38,6 +38,8 @@ Choices<Pass> pass_choices();
 Choices<FileFormat> format_choices();
 Choices<Style> style_choices();
 Choices<Curves> curves_choices();
+/// What becomes of rotations printed with six digits; true: they are polished.
+Choices<bool> matrices_choices();
 Choices<SplitRule> split_choices();
 /// OpenSCAD's words for --projection; true: orthographic.
 Choices<bool> projection_choices();

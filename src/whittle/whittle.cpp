@@ -83,18 +83,25 @@ struct Solid::State {
 
 Solid::Solid(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
-Solid Solid::load(const std::string& path, const LoadOptions& options) {
+namespace {
+
+ReadOptions reading_of(const LoadOptions& options) {
   ReadOptions reading;
   reading.curves = value_of(choose(curves_choices(), "kind of curves", options.curves));
-  State state{value_of(read_file(path, reading)), {}};
+  reading.polish = value_of(choose(matrices_choices(), "kind of matrices", options.matrices));
+  return reading;
+}
+
+}  // namespace
+
+Solid Solid::load(const std::string& path, const LoadOptions& options) {
+  State state{value_of(read_file(path, reading_of(options))), {}};
   state.bounds = whittle::bounds(state.read.model);
   return Solid(std::make_shared<const State>(std::move(state)));
 }
 
 Solid Solid::parse(std::string_view text, const std::string& name, const LoadOptions& options) {
-  ReadOptions reading;
-  reading.curves = value_of(choose(curves_choices(), "kind of curves", options.curves));
-  State state{value_of(read_csg(text, name, reading)), {}};
+  State state{value_of(read_csg(text, name, reading_of(options))), {}};
   state.bounds = whittle::bounds(state.read.model);
   return Solid(std::make_shared<const State>(std::move(state)));
 }

@@ -1,7 +1,7 @@
 // Holds the cpu backend to the oracle on given files, or on any number of random trees:
 //
 //   agreement_check FILE...                        three views each, several leaf sizes
-//   agreement_check --seeds COUNT [--first SEED] [--coincident]
+//   agreement_check --seeds COUNT [--first SEED] [--coincident | --nearly]
 //
 // Prints every model that differs with its first differing pixel; exit code 1 if any does.
 #include <cstdio>
@@ -45,7 +45,7 @@ bool report(const std::string& name, const AgreementReport& r, bool always) {
 }
 
 int run(int argc, char** argv) {
-  bool good = true, coincident = false;
+  bool good = true, coincident = false, nearly = false;
   uint64_t seeds = 0, first = 1;
   std::vector<std::string> files;
   for (int i = 1; i < argc; ++i) {
@@ -55,6 +55,8 @@ int run(int argc, char** argv) {
       first = std::strtoull(argv[++i], nullptr, 10);
     else if (!std::strcmp(argv[i], "--coincident"))
       coincident = true;
+    else if (!std::strcmp(argv[i], "--nearly"))
+      coincident = nearly = true;
     else
       files.push_back(argv[i]);
   }
@@ -73,6 +75,7 @@ int run(int argc, char** argv) {
     const uint32_t k[] = {uint32_t(2 + seed % 8)};
     const AgreementReport r = check(model_of(random_tree(seed, {.primitives = 4 + int(seed % 24),
                                                                 .coincident = coincident,
+                                                                .nearly = nearly,
                                                                 .halfspaces = seed % 5 == 0})),
                                     k, 16, 16);
     good &= report("seed " + std::to_string(seed), r, false);

@@ -119,11 +119,12 @@ TEST_P(RandomTrees, Agree) {
 
 INSTANTIATE_TEST_SUITE_P(CpuAgreement, RandomTrees, testing::Range(0, kChunks));
 
-TEST(CpuAgreement, CoincidentRandomTrees) {
+TEST(CpuAgreement, CoincidentAndNearlyCoincidentRandomTrees) {
   AgreementReport sum;
-  for (uint64_t seed = 1; seed <= 100; ++seed) {
+  for (uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const Model model = model_of(random_tree(seed, {.primitives = 10, .coincident = true}));
+    const Model model = model_of(
+        random_tree(seed, {.primitives = 10, .coincident = true, .nearly = seed % 2 == 0}));
     const SubdivideSettings rules[] = {leaf_size(kLeafSizes[seed % 4])};
     sum += agree(model, rules, 32, 24);
   }

@@ -69,7 +69,7 @@ bool touches(const Hit& hit, const Looks& looks, const Hit& answer, const Ray& a
 }
 
 /// Is `hit` the oracle's answer number `i`, allowing for what the agreement.h constants say?
-bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double model_tolerance) {
+bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye) {
   const Hit& answer = looks.hits[size_t(i)];
   const Ray& ray = looks.rays[size_t(i)];
   if (hit.id != answer.id) return false;
@@ -93,8 +93,7 @@ bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double model_t
     nearest = std::min(nearest, expected);
     farthest = std::max(farthest, expected);
   }
-  const double slack = kDistanceAgreement * length(point_of(ray, answer) - eye) +
-                       model_tolerance / std::fabs(steepness);
+  const double slack = kDistanceAgreement * length(point_of(ray, answer) - eye);
   return double(hit.distance) >= nearest - slack && double(hit.distance) <= farthest + slack;
 }
 
@@ -164,21 +163,20 @@ std::string describe_difference(const Model& model, const Camera& camera, size_t
 
 /// The pixels whose answer is not the oracle's at the centre. One that is needs no second look:
 /// what the other looks add can only forgive more.
-std::vector<size_t> different_pixels(const Camera& camera, const Frame& expected, const Frame& seen,
-                                     double model_tolerance) {
+std::vector<size_t> different_pixels(const Camera& camera, const Frame& expected,
+                                     const Frame& seen) {
   std::vector<size_t> pixels;
   for (size_t pixel = 0; pixel < expected.hits.size(); ++pixel) {
     Looks one;
     one.rays.fill(center_ray(camera, pixel));
     one.hits.fill(expected.hits[pixel]);
-    if (!matches(seen.hits[pixel], one, 0, camera.eye, model_tolerance)) pixels.push_back(pixel);
+    if (!matches(seen.hits[pixel], one, 0, camera.eye)) pixels.push_back(pixel);
   }
   return pixels;
 }
 
 AgreementReport compare(const Model& model, Tracer& subject, Tracer& oracle, const Camera& camera,
                         bool only_different) {
-  const double model_tolerance = tolerance(bounds(model));
   const Frame expected = oracle.render(camera), seen = subject.render(camera);
   AgreementReport report;
   report.pixels = int(expected.hits.size());
@@ -188,16 +186,15 @@ AgreementReport compare(const Model& model, Tracer& subject, Tracer& oracle, con
     return report;
   }
   for (const Hit& hit : expected.hits) report.hits += hit.hit();
-  const std::vector<size_t> pixels = only_different
-                                         ? different_pixels(camera, expected, seen, model_tolerance)
-                                         : all_pixels(expected);
+  const std::vector<size_t> pixels =
+      only_different ? different_pixels(camera, expected, seen) : all_pixels(expected);
   look_at_pixels(oracle, camera, expected, pixels, [&](size_t pixel, const Looks& looks) {
     const bool certain = is_certain(looks, camera.eye);
     const Hit& hit = seen.hits[pixel];
     report.ambiguous += !certain;
     bool matched = false;
     for (int i = 0; i < (certain ? 1 : kLooks); ++i)
-      matched = matched || matches(hit, looks, i, camera.eye, model_tolerance);
+      matched = matched || matches(hit, looks, i, camera.eye);
     if (matched) return;
     ++(certain ? report.unexplained : report.ambiguous_unmatched);
     // A certain pixel tells more than an ambiguous one seen before it.

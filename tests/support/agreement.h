@@ -20,8 +20,7 @@ inline constexpr double kDisplacement = 1e-3;  ///< pixels, in x and in y
 
 /// How far an answer may be from the oracle's: distance along the ray, relative to the distance of
 /// the point from the eye. Beyond it, an answer may stray along the ray as far as the surface it
-/// lies on does over the five rays, and by the model's tolerance across the surface, for within
-/// that two surfaces are one.
+/// lies on does over the five rays.
 inline constexpr double kDistanceAgreement = 1e-5;
 /// Between normals, as a sine; beyond it, an answer may stray as far as the five answers do.
 inline constexpr double kNormalAgreement = 1e-3;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
@@ -30,13 +31,6 @@ class Random {
   uint64_t state_;
 };
 
-std::string number(double x) {
-  return fmt::format("{:.6g}", x);
-}
-std::string vector(Vec3 v) {
-  return fmt::format("[{}, {}, {}]", number(v.x), number(v.y), number(v.z));
-}
-
 class Writer {
  public:
   Writer(uint64_t seed, const RandomTreeOptions& options) : random_(seed), options_(options) {}
@@ -48,14 +42,28 @@ class Writer {
   }
 
  private:
-  /// A length or coordinate: on the grid or off it.
+  std::string number(double x) const { return fmt::format("{:.{}g}", x, options_.nearly ? 10 : 6); }
+  std::string vector(Vec3 v) const {
+    return fmt::format("[{}, {}, {}]", number(v.x), number(v.y), number(v.z));
+  }
+
+  /// How far something is from where it would coincide.
+  double slip() {
+    if (!options_.nearly || random_.chance(0.5)) return 0;
+    return (random_.chance(0.5) ? 1 : -1) * std::pow(10, random_.real(-6.5, -2.5));
+  }
+  /// A length or coordinate: on the grid, nearly on it, or off it.
   double coordinate(double lo, double hi) {
-    return options_.coincident ? random_.whole(int(lo), int(hi)) : random_.real(lo, hi);
+    return options_.coincident ? random_.whole(int(lo), int(hi)) + slip() : random_.real(lo, hi);
   }
   Vec3 point(double reach) {
     return {coordinate(-reach, reach), coordinate(-reach, reach), coordinate(-reach, reach)};
   }
-  double angle() { return options_.coincident ? 90 * random_.whole(0, 3) : random_.real(0, 360); }
+  double angle() {
+    if (!options_.coincident) return random_.real(0, 360);
+    const double degrees = 90 * random_.whole(0, 3);
+    return options_.nearly && random_.chance(0.1) ? degrees + slip() : degrees;
+  }
 
   void line(const std::string& s) {
     text_.append(size_t(depth_), '\t');

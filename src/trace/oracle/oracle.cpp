@@ -3,23 +3,30 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <tuple>
 
 #include "base/workers.h"
 #include "model/instances.h"
 #include "trace/oracle/boolean_tree.h"
-#include "trace/oracle/crossings.h"
 #include "trace/oracle/span.h"
 
 namespace whittle {
 
 namespace {
 
+/// A ray's crossing of one primitive's surface.
+struct Crossing {
+  double t = 0;
+  uint32_t leaf = 0;    ///< the primitive, as an index into instances()
+  bool enters = false;  ///< the primitive, not the solid
+  Vec3 normal;          ///< unit outward normal of the primitive, world space
+};
+
 /// What one thread needs for its rays.
 struct Scratch {
   explicit Scratch(const BooleanTree& tree) : state(tree) {}
   BooleanState state;
   std::vector<Crossing> crossings;
-  std::vector<size_t> group_ends;
 };
 
 class OracleTracer final : public Tracer {
@@ -28,13 +35,11 @@ class OracleTracer final : public Tracer {
       : instances_(instances(model)),
         tree_(make_boolean_tree(model)),
         bounds_(bounds(model)),
-        coincidence_(bounds_),
+        surfaces_(name_surfaces(model, instances_)),
         workers_(threads) {
     for (uint32_t leaf = 0; leaf < instances_.size(); ++leaf) {
       ids_.push_back(model.primitives[instances_[leaf].primitive].id);
-      if (instances_[leaf].empty) continue;
-      solids_.push_back(make_convex_solid(model, instances_[leaf]));
-      leaves_.push_back(leaf);
+      if (!instances_[leaf].empty) leaves_.push_back(leaf);
     }
   }
 
@@ -81,8 +86,8 @@ class OracleTracer final : public Tracer {
     BooleanState& state = scratch.state;
     std::vector<Crossing>& crossings = scratch.crossings;
     crossings.clear();
-    for (size_t i = 0; i < solids_.size(); ++i) {
-      const Span span = ray_span(solids_[i], ray.origin, ray.direction);
+    for (size_t i = 0; i < surfaces_.solid_count(); ++i) {
+      const Span span = ray_span(surfaces_, i, ray.origin, ray.direction);
       if (span.is_empty()) continue;
       if (std::isfinite(span.t0))
         crossings.push_back({span.t0, leaves_[i], true, span.n0});
@@ -90,23 +95,25 @@ class OracleTracer final : public Tracer {
         state.flip(leaves_[i]);
       if (std::isfinite(span.t1)) crossings.push_back({span.t1, leaves_[i], false, span.n1});
     }
-    group_crossings(crossings, ray.direction, coincidence_, scratch.group_ends);
+    std::ranges::sort(crossings, {}, [](const Crossing& c) { return std::tuple(c.t, c.leaf); });
 
     Hit hit;
-    size_t begin = 0;
-    for (const size_t group_end : scratch.group_ends) {
+    for (size_t begin = 0; begin < crossings.size();) {
+      // Surfaces that are one are crossed at one t.
       const double t = crossings[begin].t;
       if (t > end) break;
       state.begin_step();
-      for (size_t i = begin; i < group_end; ++i) state.flip(crossings[i].leaf);
+      size_t group_end = begin;
+      for (; group_end < crossings.size() && crossings[group_end].t == t; ++group_end)
+        state.flip(crossings[group_end].leaf);
       if (state.has_changed() && t > start) {
         const uint32_t owner = state.owner();
-        // A leaf that changed has one crossing here; with both it would be as it was.
+        // A leaf that changed has one crossing here.
         const auto crossing = std::find_if(crossings.begin() + std::ptrdiff_t(begin),
                                            crossings.begin() + std::ptrdiff_t(group_end),
                                            [&](const Crossing& c) { return c.leaf == owner; });
         const Vec3 n = state.value() == crossing->enters ? crossing->normal : -crossing->normal;
-        hit = {float(crossing->t), ids_[owner], {float(n.x), float(n.y), float(n.z)}};
+        hit = {float(t), ids_[owner], {float(n.x), float(n.y), float(n.z)}};
         break;
       }
       begin = group_end;
@@ -119,11 +126,10 @@ class OracleTracer final : public Tracer {
   std::vector<Instance> instances_;
   BooleanTree tree_;
   Bounds bounds_;
-  Coincidence coincidence_;
+  Surfaces surfaces_;  ///< of those instances that are not empty
   Workers workers_;
-  std::vector<uint32_t> ids_;        ///< of the instances
-  std::vector<ConvexSolid> solids_;  ///< those instances that are not empty
-  std::vector<uint32_t> leaves_;     ///< their indices among the instances
+  std::vector<uint32_t> ids_;     ///< of the instances
+  std::vector<uint32_t> leaves_;  ///< the indices of the solids among the instances
 };
 
 }  // namespace

@@ -1,10 +1,8 @@
 // Where a ray is inside one convex primitive.
 #pragma once
 
-#include <vector>
-
 #include "base/box.h"
-#include "model/instances.h"
+#include "trace/oracle/surfaces.h"
 
 namespace whittle {
 
@@ -17,20 +15,9 @@ struct Span {
   bool is_empty() const { return !(t0 < t1); }
 };
 
-/// A primitive as the ray tests want it. The shape must outlive it.
-struct ConvexSolid {
-  const Shape* shape = nullptr;
-  std::vector<Plane> planes;  ///< of flat shapes, in their own coordinates
-  Vec3 anchor;                ///< a point near the shape's surface or middle, own coordinates
-  Affine object_from_world;
-};
-
-/// Precondition: the instance is not empty.
-ConvexSolid make_convex_solid(const Model& model, const Instance& instance);
-
-/// The part of the line origin + t * direction (world space, any t) inside the solid, with unit
-/// normals in world space.
-Span ray_span(const ConvexSolid& solid, Vec3 origin, Vec3 direction);
+/// The part of the line origin + t * direction (world space, any t) inside a solid, with unit
+/// normals in world space. Where faces lie on one surface the numbers t are equal to the bit.
+Span ray_span(const Surfaces& surfaces, size_t solid, Vec3 origin, Vec3 direction);
 
 /// The part of a line inside a box.
 Span ray_span(const Box& box, Vec3 origin, Vec3 direction);

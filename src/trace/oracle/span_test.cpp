@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "model/extent.h"
 #include "model/facets.h"
 #include "model/polyhedron.h"
 
@@ -64,11 +65,28 @@ Shape any_shape() {
 struct Placed {
   Model model;
   Instance instance;
+
+  void set(Shape shape) {
+    Node leaf;
+    leaf.kind = NodeKind::kPrimitive;
+    leaf.end = 2;
+    model.nodes = {Node{}, leaf};
+    model.nodes[0].end = 2;
+    model.primitives.push_back({std::move(shape), 1});
+    instance.node = 1;
+  }
+  const Shape& shape() const { return model.primitives[0].shape; }
+  Surfaces surfaces() const { return name_surfaces(model, std::span(&instance, 1)); }
+  /// A point well inside, own coordinates.
+  Vec3 middle() const {
+    if (std::holds_alternative<Polyhedron>(shape())) return {0.2, 0.2, 0.2};
+    return extent(shape(), Affine{}).center;
+  }
 };
 
 Placed any_placed() {
   Placed placed;
-  placed.model.primitives.push_back({any_shape(), 1});
+  placed.set(any_shape());
   Affine& map = placed.instance.world_from_object;
   // The diagonal outweighs the rest: never singular, mirrored as often as not.
   for (int i = 0; i < 3; ++i) {
@@ -82,16 +100,16 @@ Placed any_placed() {
 TEST(RaySpan, EndsOnTheSurfaceAndIsInsideBetween) {
   EXPECT_TRUE(rc::check([] {
     const Placed placed = any_placed();
-    const ConvexSolid solid = make_convex_solid(placed.model, placed.instance);
-    const Shape& shape = placed.model.primitives[0].shape;
+    const Surfaces surfaces = placed.surfaces();
+    const Affine object_from_world = inverse(placed.instance.world_from_object);
     // Aimed at the solid, from far off now and then.
-    const Vec3 target = placed.instance.world_from_object.point(solid.anchor + vector(3));
+    const Vec3 target = placed.instance.world_from_object.point(placed.middle() + vector(3));
     const Vec3 d = normalize(vector(1) + Vec3{0, 0, 1.5});
     const Vec3 origin = target - d * *rc::gen::element(0.0, 10.0, 1e6);
     const auto value = [&](double t) {
-      return implicit(shape, solid.object_from_world.point(origin + d * t));
+      return implicit(placed.shape(), object_from_world.point(origin + d * t));
     };
-    const Span span = ray_span(solid, origin, d);
+    const Span span = ray_span(surfaces, 0, origin, d);
     const double noise = 1e-8 * (1 + length(origin) * 1e-5);
     if (span.is_empty()) {
       // Then no point of the ray is properly inside.
@@ -112,10 +130,10 @@ TEST(RaySpan, EndsOnTheSurfaceAndIsInsideBetween) {
 TEST(RaySpan, NormalsPointOutward) {
   EXPECT_TRUE(rc::check([] {
     const Placed placed = any_placed();
-    const ConvexSolid solid = make_convex_solid(placed.model, placed.instance);
-    const Vec3 target = placed.instance.world_from_object.point(solid.anchor + vector(1));
+    const Surfaces surfaces = placed.surfaces();
+    const Vec3 target = placed.instance.world_from_object.point(placed.middle() + vector(1));
     const Vec3 d = normalize(vector(1) + Vec3{0, 0, 1.5}), origin = target - d * 10.0;
-    const Span span = ray_span(solid, origin, d);
+    const Span span = ray_span(surfaces, 0, origin, d);
     RC_CLASSIFY(span.is_empty(), "miss");
     if (span.is_empty()) return;
     RC_ASSERT(std::fabs(length(span.n0) - 1) < 1e-12);
@@ -123,18 +141,16 @@ TEST(RaySpan, NormalsPointOutward) {
     RC_ASSERT(dot(span.n1, d) >= -1e-12);
     // By the definition of a normal of a convex solid: every other point of it is behind.
     const Vec3 p0 = origin + d * span.t0, p1 = origin + d * span.t1;
-    const bool is_corner = std::holds_alternative<Polyhedron>(*solid.shape);
-    const Vec3 inside =
-        placed.instance.world_from_object.point(is_corner ? Vec3{0.2, 0.2, 0.2} : solid.anchor);
+    const Vec3 inside = placed.instance.world_from_object.point(placed.middle());
     RC_ASSERT(dot(inside - p0, span.n0) <= 1e-6);
     RC_ASSERT(dot(inside - p1, span.n1) <= 1e-6);
   }));
 }
 
 Span span_of(Shape shape, Vec3 origin, Vec3 direction) {
-  Model model;
-  model.primitives.push_back({std::move(shape), 1});
-  return ray_span(make_convex_solid(model, Instance{}), origin, direction);
+  Placed placed;
+  placed.set(std::move(shape));
+  return ray_span(placed.surfaces(), 0, origin, direction);
 }
 
 TEST(RaySpan, TouchingIsNotInside) {

@@ -1,0 +1,89 @@
+#include "model/extent.h"
+
+#include <cmath>
+
+#include "model/facets.h"
+
+namespace whittle {
+
+namespace {
+
+constexpr Extent kUnbounded = {{}, kInfinity, kInfinity};
+
+std::vector<Vec3> sphere_outline(double r) {
+  std::vector<Vec3> points;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z)
+        if (x != 0 || y != 0 || z != 0)
+          points.push_back(normalize(Vec3{double(x), double(y), double(z)}) * r);
+  return points;
+}
+
+std::vector<Vec3> side_outline(const Cylinder& s) {
+  std::vector<Vec3> points;
+  const double z0 = s.center ? -s.h / 2 : 0;
+  for (const double f : {0.0, 0.5, 1.0}) {
+    const double r = s.r1 + f * (s.r2 - s.r1);
+    if (!(r > 0)) continue;
+    for (int k = 0; k < 8; ++k)
+      points.push_back({r * cos_degrees(45 * k), r * sin_degrees(45 * k), z0 + f * s.h});
+  }
+  return points;
+}
+
+double squared(Vec3 v) {
+  return dot(v, v);
+}
+
+Vec3 middle_of(std::span<const Vec3> points) {
+  Vec3 middle;
+  for (const Vec3& p : points) middle += p / double(points.size());
+  return middle;
+}
+
+double reach(std::span<const Vec3> points, Vec3 middle, const Affine& map) {
+  double longest = 0;
+  for (const Vec3& p : points) longest = std::max(longest, squared(map.vector(p - middle)));
+  return std::sqrt(longest);
+}
+
+}  // namespace
+
+std::vector<Vec3> outline(const Shape& shape) {
+  if (is_flat(shape)) return facet_vertices(shape);
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere_outline(sphere->r);
+  return side_outline(std::get<Cylinder>(shape));
+}
+
+Extent flat_extent(std::span<const Vec3> outline, std::span<const Plane> planes,
+                   const Affine& map) {
+  if (outline.empty()) return kUnbounded;
+  const Vec3 middle = middle_of(outline);
+  const Affine back = inverse(map);
+  double nearest = kInfinity;
+  for (const Plane& plane : planes)
+    nearest = std::min(nearest,
+                       (plane.d - dot(plane.n, middle)) / length(back.transposed_vector(plane.n)));
+  return {map.point(middle), reach(outline, middle, map), 2 * std::max(0.0, nearest)};
+}
+
+Extent extent(const Shape& shape, const Affine& map) {
+  const std::vector<Vec3> points = outline(shape);
+  if (is_flat(shape)) return flat_extent(points, facet_planes(shape), map);
+  const Affine back = inverse(map);
+  const Vec3 middle = middle_of(points);
+  const double radius = reach(points, middle, map);
+  // A ball's image has the semi-axes 1 / sqrt(the eigenvalues of back^T back); their mean stands
+  // for the largest.
+  if (const auto* s = std::get_if<Sphere>(&shape)) {
+    const double mean = (squared(back.row[0]) + squared(back.row[1]) + squared(back.row[2])) / 3;
+    return {map.point(middle), radius, 2 * s->r / std::sqrt(mean)};
+  }
+  const auto& s = std::get<Cylinder>(shape);
+  const double across =
+      (s.r1 + s.r2) / std::sqrt((squared(back.row[0]) + squared(back.row[1])) / 2);
+  return {map.point(middle), radius, std::min(across, s.h / length(back.row[2]))};
+}
+
+}  // namespace whittle

@@ -1,0 +1,47 @@
+// How large a primitive is where it stands: what decides which of its surfaces are one with others
+// (docs/conventions.md, Coincidence).
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "base/box.h"
+#include "model/model.h"
+
+namespace whittle {
+
+/// Lengths in the units of the space that was mapped into.
+struct Extent {
+  Vec3 center;        ///< the middle of the outline
+  double radius = 0;  ///< the outline lies within this of the centre; infinite for a half-space
+  double width = 0;   ///< about twice the radius of the ball that fits in about the centre; never
+                      ///< above twice the true one's for squashed curves; infinite for a half-space
+};
+
+/// Points that stand for the surface of a shape, in its own coordinates: the corners of a flat one,
+/// 26 points spread over a sphere, three rings of eight on the side of a cylinder or cone (without
+/// its apex). None for a half-space.
+std::vector<Vec3> outline(const Shape& shape);
+
+/// Precondition: the shape is not empty and the map not singular.
+Extent extent(const Shape& shape, const Affine& map);
+
+/// The same for a flat shape whose outline and facet planes (own coordinates) are at hand.
+Extent flat_extent(std::span<const Vec3> outline, std::span<const Plane> planes, const Affine& map);
+
+/// The same seen from a region: what is larger than the region's ball counts as that ball.
+/// An empty region changes nothing.
+inline Extent within(const Extent& extent, const Box& region) {
+  if (region.is_empty()) return extent;
+  const double radius = 0.5 * region.diagonal();
+  return extent.radius <= radius ? extent : Extent{region.center(), radius, extent.width};
+}
+
+/// How near another surface must be to a surface of this primitive to be the same: the model's
+/// tolerance, but never more than a thousandth of the primitive's own width, so that none is eaten.
+inline double own_tolerance(double model_tolerance, const Extent& extent) {
+  return std::min(model_tolerance, 1e-3 * extent.width);
+}
+
+}  // namespace whittle

@@ -1,0 +1,46 @@
+// Lowering and the oracle find out which faces lie on one surface each in its own way: by a table
+// of fingerprints over half-spaces, and by comparing every face with every surface. They must find
+// the same.
+#include <gtest/gtest.h>
+
+#include "lower/lower.h"
+#include "support/random_tree.h"
+#include "support/read_text.h"
+#include "trace/oracle/surfaces.h"
+
+namespace whittle {
+namespace {
+
+/// Counts the faces that share a surface with an earlier one.
+size_t expect_same_names(const std::string& text) {
+  const Model model = model_of(text);
+  const Scene scene = *lower(model);
+  if (scene.region.is_empty()) return 0;  // nothing can be seen, so nothing is named
+  const Surfaces surfaces = name_surfaces(model, instances(model));
+  EXPECT_EQ(scene.half_spaces.size(), surfaces.all.size()) << text;
+  EXPECT_EQ(scene.faces.size(), surfaces.faces.size()) << text;
+  if (scene.faces.size() != surfaces.faces.size()) return 0;
+  for (size_t i = 0; i < scene.faces.size(); ++i) {
+    const SurfaceFace& face = surfaces.faces[i];
+    EXPECT_EQ(scene.faces[i].literal >> 1, face.surface) << "face " << i << " of\n" << text;
+    if (surfaces.all[face.surface].kind == Surface::Kind::kPlane) {
+      EXPECT_EQ(bool(scene.faces[i].literal & 1), face.other_side) << "face " << i << " of\n"
+                                                                   << text;
+    }
+  }
+  return scene.faces.size() - scene.half_spaces.size();
+}
+
+TEST(Naming, LoweringAndOracleFindTheSameSurfaces) {
+  size_t shared = 0;
+  for (uint64_t seed = 1; seed <= 1000; ++seed) {
+    shared += expect_same_names(random_tree(seed, {.primitives = 24, .coincident = true}));
+    shared += expect_same_names(
+        random_tree(seed, {.primitives = 24, .coincident = true, .nearly = true}));
+    shared += expect_same_names(random_tree(seed, {.primitives = 24}));
+  }
+  EXPECT_GT(shared, 20000u);
+}
+
+}  // namespace
+}  // namespace whittle
