@@ -49,7 +49,7 @@ folder=build/$preset
 start() {
   local options=(-max_len=4096 "-dict=tests/fuzz/reader.dict")
   # Pictures are best when the models are large from the start.
-  if [[ $1 == picture ]]; then options=(-max_len=160 -len_control=0); fi
+  if [[ $1 == picture ]]; then options=(-max_len=100 -len_control=0); fi
   # Fewer frames for each allocation and a smaller quarantine make it faster.
   export ASAN_OPTIONS=malloc_context_size=2:quarantine_size_mb=32:${ASAN_OPTIONS:-}
   export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}
