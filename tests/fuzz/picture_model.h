@@ -27,6 +27,7 @@ inline constexpr int kViews = 6;
 /// model's size; decode with 0 to learn it.
 PictureInput decode_picture(std::span<const uint8_t> bytes, double nearly);
 
-inline constexpr double kNearly[] = {0.1, 0.5, 0.9, 1.1, 2, 10, 100};
+/// Odd, so that no two of them, with the decoder's scales, differ by just the tolerance.
+inline constexpr double kNearly[] = {0.13, 0.45, 0.9, 1.12, 2.3, 11, 130};
 
 }  // namespace whittle
