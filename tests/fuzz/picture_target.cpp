@@ -31,6 +31,13 @@ Camera camera_of(const Model& model, int view) {
   return camera;
 }
 
+/// A model as small as the rounding of its own coordinates, as half-spaces that meet far away are,
+/// is noise: there is nothing to agree on.
+bool is_noise(const Bounds& b) {
+  const Vec3 reach = max(abs(b.box.lo), abs(b.box.hi));
+  return !b.box.is_empty() && tolerance(b) < 1e-15 * max_component(reach);
+}
+
 void check(std::span<const uint8_t> bytes) {
   PictureInput input = decode_picture(bytes, 0);
   Model model = model_of(input.text, "fuzz.csg");
@@ -38,6 +45,7 @@ void check(std::span<const uint8_t> bytes) {
     input = decode_picture(bytes, tolerance(bounds(model)));
     model = model_of(input.text, "fuzz.csg");
   }
+  if (is_noise(bounds(model))) return;
   SubdivideSettings settings;
   settings.leaf_size = input.leaf_size;
   settings.least_use = input.least_use;
