@@ -24,3 +24,12 @@ if(WHITTLE_SANITIZE)
     add_compile_options(-Wno-maybe-uninitialized)  # false alarms in what GCC itself inserts
   endif()
 endif()
+
+if(WHITTLE_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang" OR NOT WHITTLE_TESTS)
+    message(FATAL_ERROR "WHITTLE_FUZZ needs clang and WHITTLE_TESTS: cmake --preset fuzz")
+  endif()
+  # What the fuzzer learns coverage from. It need not see comparisons too: that would double the
+  # time of a picture, and what the reader compares with is in its dictionary.
+  add_compile_options(-fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp)
+endif()

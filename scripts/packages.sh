@@ -27,3 +27,8 @@ lint_packages=(
   clang-format        # scripts/format.sh
   clang-tidy          # scripts/tidy.sh
 )
+
+fuzz_packages=(
+  clang               # scripts/fuzz.sh: the compiler that has libFuzzer,
+  libclang-rt-dev     # and libFuzzer itself, with the sanitizers
+)

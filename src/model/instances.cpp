@@ -79,14 +79,21 @@ Box outer_box(const Shape& shape) {
   return shape_box(shape, {});
 }
 
-/// True if numbers as large as these leave the range in which a solid can be computed.
+/// Nothing can be computed of what reaches farther from the origin: squares of kUnboundedReach
+/// times this are about as large as numbers get.
+constexpr double kFarthest = 1e150;
+
+/// True if the shape reaches farther than that, or where it is cannot be told.
 bool overflows(const Shape& shape, const Affine& map) {
+  Box box;
   if (const auto* s = std::get_if<Halfspace>(&shape)) {
     const Plane plane = world_plane(*s, map);
-    return !is_finite(plane.n) || !std::isfinite(plane.d);
+    box.include(plane.n * plane.d);
+  } else {
+    box = transform(map, outer_box(shape));
   }
-  const Box box = transform(map, outer_box(shape));
-  return !box.is_finite() || !std::isfinite(dot(box.size(), box.size()));
+  const Vec3 reach = max(abs(box.lo), abs(box.hi));
+  return !(reach.x <= kFarthest && reach.y <= kFarthest && reach.z <= kFarthest);
 }
 
 /// What an operator has gathered from its operands so far.

@@ -124,6 +124,29 @@ TEST(Instances, FlattenedAndNonFiniteAreEmpty) {
   EXPECT_NE(warnings[1].find(":3:1: warning: this transform is not finite"), std::string::npos);
 }
 
+TEST(Instances, WhatIsTooFarToComputeIsEmpty) {
+  const Model model = Builder()
+                          .add(Halfspace{.n = {1, 0, 0}, .d = 1e151})
+                          .add(Halfspace{.n = {1e-160, 0, 0}, .d = 1e-8})
+                          .add(Halfspace{.n = {1, 0, 0}, .d = 1e149})
+                          .transform(shift(1e151, 0, 0))
+                          .add(unit_cube())
+                          .close()
+                          .transform(shift(0, -1e149, 0))
+                          .add(unit_cube())
+                          .close()
+                          .done();
+  const auto found = instances(model);
+  ASSERT_EQ(found.size(), 5u);
+  EXPECT_TRUE(found[0].empty);
+  EXPECT_TRUE(found[1].empty);
+  EXPECT_FALSE(found[2].empty);
+  EXPECT_TRUE(found[3].empty);
+  EXPECT_FALSE(found[4].empty);
+  const Bounds b = bounds(model);
+  EXPECT_TRUE(std::isfinite(dot(view_region(b).size(), view_region(b).size())));
+}
+
 TEST(Instances, AMillionDeep) {
   Builder builder;
   for (int i = 0; i < 1000000; ++i) {

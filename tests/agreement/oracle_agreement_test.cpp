@@ -181,5 +181,46 @@ TEST(Agreement, AmbiguousPixelsAreThoseOnEdges) {
   for (int x = 0; x < camera.width; ++x) EXPECT_EQ(ambiguous[size_t(x)], x == 4 || x == 12) << x;
 }
 
+TEST(Agreement, ARayThatTouchesMayHitOrMiss) {
+  const Model model = model_of("sphere(r = 1);");
+  const auto oracle = make_oracle_tracer(model);
+  const Camera camera = camera_along({1, 0, 9}, {0, 0, -1});
+  ASSERT_FALSE(oracle->render(camera).at(0, 0).hit());
+  const auto unmatched = [&](const Vec3f& normal) {
+    const auto inwards = [](Camera moved) {
+      moved.eye.x -= 0.01;
+      return moved;
+    };
+    AdaptedTracer touching(*oracle, inwards, [&](const Hit&) { return Hit{9, 1, normal}; });
+    const AgreementReport report = check_agreement(model, touching, *oracle, camera);
+    EXPECT_EQ(report.ambiguous, 1);
+    return report.ambiguous_unmatched;
+  };
+  EXPECT_EQ(unmatched({1, 0, 0}), 0);
+  EXPECT_EQ(unmatched({0, 1, 0}), 1) << "another place of the sphere";
+  EXPECT_EQ(unmatched({0.98f, 0, 0.199f}), 1) << "no ray that touches";
+}
+
+TEST(Agreement, DifferencesAreFoundWithoutLookingEverywhere) {
+  const Model model = model_of(kScene);
+  const auto oracle = make_oracle_tracer(model);
+  for (const float stretch : {1.0f, 1.0005f}) {
+    AdaptedTracer subject(*oracle, {}, [&](Hit hit) {
+      hit.distance *= stretch;
+      return hit;
+    });
+    for (const Camera& camera : cameras_for(model, 32, 24)) {
+      const AgreementReport all = check_agreement(model, subject, *oracle, camera);
+      const AgreementReport found = find_differences(model, subject, *oracle, camera);
+      EXPECT_EQ(found.pixels, all.pixels);
+      EXPECT_EQ(found.hits, all.hits);
+      EXPECT_EQ(found.unexplained, all.unexplained);
+      EXPECT_EQ(found.ambiguous_unmatched, all.ambiguous_unmatched);
+      EXPECT_EQ(found.first_difference, all.first_difference);
+      EXPECT_EQ(found.unexplained > 0, stretch != 1);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace whittle

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 #include <span>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,8 +14,8 @@ namespace whittle {
 
 namespace {
 
-/// Where a curved surface is as flat to the ray as this and its neighbour misses it, its limb is
-/// between: a surface a little larger shows any normal from here to one square to the ray.
+/// Sine of the angle between ray and surface below which a surface that is a tolerance off may be
+/// met or missed.
 constexpr double kLimb = 0.02;
 
 constexpr int kLooks = 5;  ///< the centre, then the four displaced ones
@@ -62,6 +61,17 @@ bool is_certain(const Looks& looks, Vec3 eye) {
   return true;
 }
 
+/// Does the hit's own ray only touch the surface of that answer, where other looks miss it? Whether
+/// it meets it is then a matter of rounding, and where it does the other looks cannot tell.
+bool touches(const Hit& hit, const Looks& looks, const Hit& answer, const Ray& answer_ray,
+             double touch) {
+  const bool some_miss = std::any_of(looks.hits.begin(), looks.hits.end(),
+                                     [&](const Hit& other) { return other.id != answer.id; });
+  const double to_silhouette = std::fabs(dot(to_double(answer.normal), answer_ray.direction));
+  return some_miss && std::fabs(dot(to_double(hit.normal), looks.rays[0].direction)) <= touch &&
+         normal_difference(hit.normal, answer.normal) <= kNormalAgreement + 1.5 * to_silhouette;
+}
+
 /// Is `hit` the oracle's answer number `i`, allowing for what the agreement.h constants say, and
 /// for a surface that is `across` off?
 bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double across,
@@ -72,18 +82,17 @@ bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double across,
   if (!hit.hit()) return !std::isfinite(hit.distance);
 
   if (std::fabs(length(to_double(hit.normal)) - 1) > kNormalAgreement) return false;
-  const double steepness = dot(to_double(answer.normal), ray.direction);
+  // A surface that may be a little off is met a little beyond its limb.
+  if (touches(hit, looks, answer, ray, across > 0 ? kLimb : kNormalAgreement)) return true;
   double normal_spread = 0;
-  for (const Hit& other : looks.hits) {
+  for (const Hit& other : looks.hits)
     if (other.id == answer.id)
       normal_spread = std::max(normal_spread, normal_difference(other.normal, answer.normal));
-    else if (across > 0 && std::fabs(steepness) < kLimb)
-      normal_spread = std::max(normal_spread, std::fabs(steepness));
-  }
   if (!(normal_difference(hit.normal, answer.normal) <= kNormalAgreement + normal_spread))
     return false;
 
   double nearest = double(answer.distance), farthest = nearest;
+  const double steepness = dot(to_double(answer.normal), ray.direction);
   for (const Ray& other : looks.rays) {
     // Where the surface turns away within the five rays, its distance says nothing any more.
     if (steepness * dot(to_double(answer.normal), other.direction) <= 0) return true;
@@ -91,12 +100,20 @@ bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double across,
     nearest = std::min(nearest, expected);
     farthest = std::max(farthest, expected);
   }
-  // Towards a silhouette the way along the ray grows without bounds: the flatter of both counts.
-  const double flatter =
-      std::min(std::fabs(steepness), std::fabs(dot(to_double(hit.normal), ray.direction)));
-  const double slack = kDistanceAgreement * length(point_of(ray, answer) - eye) +
-                       (across > 0 ? across / flatter : 0);
+  const double slack =
+      kDistanceAgreement * length(point_of(ray, answer) - eye) + across / std::fabs(steepness);
   return double(hit.distance) >= nearest - slack && double(hit.distance) <= farthest + slack;
+}
+
+std::vector<size_t> all_pixels(const Frame& frame) {
+  std::vector<size_t> pixels(frame.hits.size());
+  std::iota(pixels.begin(), pixels.end(), size_t(0));
+  return pixels;
+}
+
+/// The ray through a pixel's centre.
+Ray center_ray(const Camera& camera, size_t pixel) {
+  return camera.ray(int(pixel) % camera.width + 0.5, int(pixel) / camera.width + 0.5);
 }
 
 /// Calls `visit(pixel index, looks)` for the given pixels.
@@ -109,22 +126,17 @@ void look_at_pixels(Tracer& oracle, const Camera& camera, const Frame& frame,
                                                  {-kDisplacement, kDisplacement},
                                                  {kDisplacement, kDisplacement}};
   constexpr size_t kExtra = kLooks - 1;
-  const auto center = [&](size_t pixel) {
-    return std::pair(double(pixel % size_t(camera.width)) + 0.5,
-                     double(pixel / size_t(camera.width)) + 0.5);
-  };
   std::vector<PixelPosition> positions;
   for (const size_t pixel : pixels) {
-    const auto [x, y] = center(pixel);
+    const int x = int(pixel) % camera.width, y = int(pixel) / camera.width;
     for (int i = 1; i < kLooks; ++i)
-      positions.push_back({float(x + kOffsets[i][0]), float(y + kOffsets[i][1])});
+      positions.push_back({float(x + 0.5 + kOffsets[i][0]), float(y + 0.5 + kOffsets[i][1])});
   }
   std::vector<Hit> hits(positions.size());
   oracle.probe(camera, positions, hits);
   for (size_t n = 0; n < pixels.size(); ++n) {
     Looks looks;
-    const auto [x, y] = center(pixels[n]);
-    looks.rays[0] = camera.ray(x, y);
+    looks.rays[0] = center_ray(camera, pixels[n]);
     looks.hits[0] = frame.hits[pixels[n]];
     for (size_t i = 0; i < kExtra; ++i) {
       const PixelPosition& p = positions[n * kExtra + i];
@@ -133,22 +145,6 @@ void look_at_pixels(Tracer& oracle, const Camera& camera, const Frame& frame,
     }
     visit(pixels[n], looks);
   }
-}
-
-std::vector<size_t> all_pixels(const Frame& frame) {
-  std::vector<size_t> pixels(frame.hits.size());
-  std::iota(pixels.begin(), pixels.end(), size_t(0));
-  return pixels;
-}
-
-/// Are the hits so much alike that no second look is needed? Half of what `matches` allows.
-bool are_alike(const Hit& a, const Hit& b) {
-  if (!a.hit() || !b.hit()) return a.hit() == b.hit();
-  const Vec3f n = a.normal - b.normal;
-  constexpr float kNormals = 0.5f * float(kNormalAgreement);
-  return std::fabs(a.distance - b.distance) <=
-             0.5f * float(kDistanceAgreement) * std::fabs(b.distance) &&
-         std::fabs(n.x) <= kNormals && std::fabs(n.y) <= kNormals && std::fabs(n.z) <= kNormals;
 }
 
 std::string describe(const Hit& hit) {
@@ -198,6 +194,20 @@ AgreementReport& operator+=(AgreementReport& sum, const AgreementReport& one) {
 
 namespace {
 
+const AcceptsId kSameId = [](const Ray&, const Hit& hit, uint32_t id) { return hit.id == id; };
+
+/// What the report says before any pixel is compared; `unexplained` if the pictures cannot be.
+AgreementReport first_report(const Frame& seen, const Frame& expected) {
+  AgreementReport report;
+  report.pixels = int(expected.hits.size());
+  for (const Hit& hit : expected.hits) report.hits += hit.hit();
+  if (seen.hits.size() != expected.hits.size()) {
+    report.unexplained = report.pixels;
+    report.first_difference = "the picture has another size";
+  }
+  return report;
+}
+
 /// Compares the given pixels and adds what it finds to the report.
 void check_pixels(const Model& model, const char* subject, const Frame& seen, Tracer& oracle,
                   const Frame& expected, std::span<const size_t> pixels, const Camera& camera,
@@ -218,15 +228,21 @@ void check_pixels(const Model& model, const char* subject, const Frame& seen, Tr
   });
 }
 
-/// The report before any pixel is compared; its `unexplained` says if the pictures cannot be.
-AgreementReport first_report(const Frame& seen, const Frame& expected) {
-  AgreementReport report;
-  report.pixels = int(expected.hits.size());
-  for (const Hit& hit : expected.hits) report.hits += hit.hit();
-  if (seen.hits.size() != expected.hits.size()) {
-    report.unexplained = report.pixels;
-    report.first_difference = "the picture has another size";
+/// Compares those pixels of which a first glance cannot say that they are right.
+AgreementReport check_different(const Model& model, const char* subject, const Frame& seen,
+                                Tracer& oracle, const Frame& expected, const Camera& camera,
+                                double across, const AcceptsId& accepts) {
+  AgreementReport report = first_report(seen, expected);
+  if (report.unexplained > 0) return report;
+  std::vector<size_t> different;
+  for (size_t pixel = 0; pixel < expected.hits.size(); ++pixel) {
+    // The other looks can only forgive more.
+    Looks one;
+    one.rays.fill(center_ray(camera, pixel));
+    one.hits.fill(expected.hits[pixel]);
+    if (!matches(seen.hits[pixel], one, 0, camera.eye, 0, accepts)) different.push_back(pixel);
   }
+  check_pixels(model, subject, seen, oracle, expected, different, camera, across, accepts, report);
   return report;
 }
 
@@ -237,29 +253,22 @@ AgreementReport check_agreement(const Model& model, Tracer& subject, Tracer& ora
   const Frame expected = oracle.render(camera), seen = subject.render(camera);
   AgreementReport report = first_report(seen, expected);
   if (report.unexplained > 0) return report;
-  const AcceptsId same_id = [](const Ray&, const Hit& hit, uint32_t id) { return hit.id == id; };
   check_pixels(model, subject.name(), seen, oracle, expected, all_pixels(expected), camera, 0,
-               same_id, report);
+               kSameId, report);
   return report;
+}
+
+AgreementReport find_differences(const Model& model, Tracer& subject, Tracer& oracle,
+                                 const Camera& camera) {
+  const Frame expected = oracle.render(camera), seen = subject.render(camera);
+  return check_different(model, subject.name(), seen, oracle, expected, camera, 0, kSameId);
 }
 
 AgreementReport check_pictures(const Model& model, const Frame& seen, Tracer& oracle,
                                const Frame& expected, const Camera& camera,
                                const AcceptsId& accepts) {
-  AgreementReport report = first_report(seen, expected);
-  if (report.unexplained > 0) return report;
-  std::vector<size_t> different;
-  for (size_t i = 0; i < expected.hits.size(); ++i) {
-    const Hit &hit = seen.hits[i], &answer = expected.hits[i];
-    if (!are_alike(hit, answer) ||
-        (answer.hit() && !accepts(camera.ray(double(i % size_t(camera.width)) + 0.5,
-                                             double(i / size_t(camera.width)) + 0.5),
-                                  answer, hit.id)))
-      different.push_back(i);
-  }
-  check_pixels(model, "the subject", seen, oracle, expected, different, camera,
-               tolerance(bounds(model)), accepts, report);
-  return report;
+  return check_different(model, "the subject", seen, oracle, expected, camera,
+                         tolerance(bounds(model)), accepts);
 }
 
 std::vector<uint8_t> ambiguous_pixels(Tracer& oracle, const Camera& camera, const Frame& frame) {

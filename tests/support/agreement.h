@@ -43,12 +43,16 @@ AgreementReport& operator+=(AgreementReport& sum, const AgreementReport& one);
 AgreementReport check_agreement(const Model& model, Tracer& subject, Tracer& oracle,
                                 const Camera& camera);
 
+/// The same verdict sooner, for many models: looks five times only where the subject's answer is
+/// not the oracle's own. So `ambiguous` counts only what was looked at.
+AgreementReport find_differences(const Model& model, Tracer& subject, Tracer& oracle,
+                                 const Camera& camera);
+
 /// May the subject show primitive `seen` where the oracle, along `ray`, has the hit `expected`?
 using AcceptsId = std::function<bool(const Ray& ray, const Hit& expected, uint32_t seen)>;
 
-/// As check_agreement, where the pictures are there already and may number the primitives
-/// differently. The oracle looks five times only at pixels where the pictures differ, so
-/// `ambiguous` counts no others.
+/// The same for pictures that are there already, may number the primitives differently, and whose
+/// surfaces may be the model's tolerance apart.
 AgreementReport check_pictures(const Model& model, const Frame& seen, Tracer& oracle,
                                const Frame& expected, const Camera& camera,
                                const AcceptsId& accepts);

@@ -97,6 +97,19 @@ TEST(Cpu, SmallAndFlatBodiesAreExactInLargeModels) {
   EXPECT_NEAR(top.normal.x, 0.75e-6, 1e-10);
 }
 
+TEST(Cpu, APlaneThatOnlyHappensToPassThereOwnsNothing) {
+  // The wedge's slope goes on beyond the wedge and meets the cube's top just where the ray does.
+  const char* const text =
+      "polyhedron(points = [[0,6,0],[3,6,0],[0,6,3],[0,8,0],[3,8,0],[0,8,3]],"
+      " faces = [[0,2,1],[3,4,5],[0,1,4,3],[1,2,5,4],[2,0,3,5]]);"
+      "translate([0,0,-1]) cube([4,4,2]);";
+  SubdivideSettings all_in_one_leaf;
+  all_in_one_leaf.leaf_size = 16;
+  Traced model(text, all_in_one_leaf);
+  for (const double y : {1.0, 2.0, 3.5})
+    expect_hit(model.hit({2, y, 10}, {2, y, 0}), 9, 2, {0, 0, 1});
+}
+
 TEST(Cpu, FlushPocketsHaveNoLid) {
   Traced model("difference(){cube(10); translate([2,2,5]) cube([6,6,5]);}");
   expect_hit(model.hit({5, 5, 20}, {5, 5, 0}), 15, 2, {0, 0, 1});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lower/evaluate.h"
 
@@ -77,6 +78,27 @@ bool LeafSolver::value(CellKind kind, const Leaf& leaf,
   }
 }
 
+size_t LeafSolver::decisive(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals,
+                            std::span<const Crossing> group) {
+  if (group.size() == 1) return 0;
+  const bool after = value(kind, leaf, literals);
+  const auto value_without = [&](auto&& left_out) {
+    const auto flip_those = [&] {
+      for (size_t i = 0; i < group.size(); ++i)
+        if (left_out(i)) flip(kind, literals, group[i].literal);
+    };
+    flip_those();
+    const bool result = value(kind, leaf, literals);
+    flip_those();
+    return result;
+  };
+  for (size_t n = 0; n < group.size(); ++n) {
+    const bool is_needed = value_without([n](size_t i) { return i == n; }) != after;
+    if (is_needed || value_without([n](size_t i) { return i != n; }) == after) return n;
+  }
+  return 0;
+}
+
 bool LeafSolver::first_change(CellKind kind, const Leaf& leaf, std::span<const LiteralOnRay> on_ray,
                               const LocalRay& ray, double t0, double t1, Inside& inside,
                               Change& change) {
@@ -104,8 +126,9 @@ bool LeafSolver::first_change(CellKind kind, const Leaf& leaf, std::span<const L
       flip(kind, literals, crossings_[i].literal);
     const bool after = value(kind, leaf, literals);
     if (after == solid) continue;
-    change = describe(leaf, literals, ray, t,
-                      std::span<const Crossing>(crossings_).subspan(first, i - first), after);
+    const std::span<Crossing> group(&crossings_[first], i - first);
+    std::swap(group[0], group[decisive(kind, leaf, literals, group)]);
+    change = describe(leaf, literals, ray, t, group, after);
     return true;
   }
   inside = solid ? Inside::kYes : Inside::kNo;

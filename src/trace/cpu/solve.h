@@ -67,6 +67,12 @@ class LeafSolver {
   void start(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals);
   void flip(CellKind kind, std::span<const LeafLiteral> literals, uint32_t literal);
   bool value(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals) const;
+  /// Of the crossings that just happened together and changed the solid, the number of the first
+  /// that it would not have changed without, or that would have done alone: surfaces that are no
+  /// part of the solid here may be among them. 0 if there is none such.
+  size_t decisive(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals,
+                  std::span<const Crossing> group);
+  /// The first crossing of the group tells the owner, unless it has several.
   Change describe(const Leaf& leaf, std::span<const LeafLiteral> literals, const LocalRay& ray,
                   double t, std::span<const Crossing> group, bool solid_after) const;
   /// The face that owns a change which several primitives share (docs/conventions.md, tie rules).

@@ -1,0 +1,72 @@
+// Any bytes as a model (picture_model.h), rendered at 32x32 by the cpu backend and held to the
+// oracle pixel by pixel.
+#include <string>
+
+#include "agreement/cpu_subject.h"
+#include "fuzz/picture_model.h"
+#include "fuzz/require.h"
+#include "fuzz/target.h"
+#include "model/instances.h"
+#include "support/read_text.h"
+#include "trace/oracle/oracle.h"
+
+namespace whittle {
+namespace {
+
+constexpr int kEdge = 32;  ///< pixels
+
+/// The standard views, then three square to the axes, where rays run along faces and cells.
+Camera camera_of(const Model& model, int view) {
+  std::vector<Camera> cameras = cameras_for(model, kEdge, kEdge);
+  if (view < int(cameras.size())) return cameras[size_t(view)];
+  // Orthographic, from the standard view's distance.
+  Camera camera = cameras[1];
+  const Vec3 center = camera.eye + camera.forward * (camera.half_height / 1.02 * 3);
+  const int axis = view - int(cameras.size());
+  camera.forward = camera.right = camera.up = {};
+  camera.forward[axis] = -1;
+  camera.right[(axis + 1) % 3] = 1;
+  camera.up = cross(camera.right, camera.forward);
+  camera.eye = center - camera.forward * (3 * camera.half_height);
+  return camera;
+}
+
+/// A model as small as the rounding of its own coordinates, as half-spaces that meet far away are,
+/// is noise: there is nothing to agree on.
+bool is_noise(const Bounds& b) {
+  const Vec3 reach = max(abs(b.box.lo), abs(b.box.hi));
+  return !b.box.is_empty() && tolerance(b) < 1e-15 * max_component(reach);
+}
+
+void check(std::span<const uint8_t> bytes) {
+  PictureInput input = decode_picture(bytes, 0);
+  Model model = model_of(input.text, "fuzz.csg");
+  if (input.uses_nearly) {
+    input = decode_picture(bytes, tolerance(bounds(model)));
+    model = model_of(input.text, "fuzz.csg");
+  }
+  if (is_noise(bounds(model))) return;
+  SubdivideSettings settings;
+  settings.leaf_size = input.leaf_size;
+  settings.least_use = input.least_use;
+  settings.threads = 1;
+  CpuSubject cpu(model, settings);
+  const auto oracle = make_oracle_tracer(model, 1);
+  const AgreementReport report =
+      find_differences(model, *cpu.tracer, *oracle, camera_of(model, input.view));
+  const auto disagreements = cpu.tracer->stats().disagreements;
+  if (report.unexplained == 0 && report.ambiguous_unmatched == 0 && disagreements == 0) return;
+  require(false, "k = " + std::to_string(input.leaf_size) + ", view " + std::to_string(input.view) +
+                     ": " + std::to_string(report.unexplained) + " unexplained, " +
+                     std::to_string(report.ambiguous_unmatched) + " unmatched, " +
+                     std::to_string(disagreements) + " disagreements of cells\n" +
+                     report.first_difference + "the model:\n" + input.text);
+}
+
+}  // namespace
+}  // namespace whittle
+
+int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  whittle::check({data, size});
+  return 0;
+}
