@@ -48,9 +48,15 @@ RayFormula either(Ellipsoid a, Ellipsoid b) {
     if (!hits_a && !hits_b) return Hit{};
     if (!hits_b) return hit_at(ray, a0, 1, a);
     if (!hits_a) return hit_at(ray, b0, 2, b);
-    if (std::min(a0, b0) > ray.t_min)
-      return a0 < b0 ? hit_at(ray, a0, 1, a) : hit_at(ray, b0, 2, b);
-    return a1 > b1 ? hit_at(ray, a1, 1, a) : hit_at(ray, b1, 2, b);
+    const bool from_outside = std::min(a0, b0) > ray.t_min;
+    const double ta = from_outside ? a0 : a1, tb = from_outside ? b0 : b1;
+    const Vec3 na = a.normal(ray.origin + ray.direction * ta),
+               nb = b.normal(ray.origin + ray.direction * tb);
+    // Where they cross, either may be seen, and their normals may be told apart.
+    if (std::fabs((ta - tb) * dot(na, ray.direction)) < 2 * kTolerance &&
+        length(cross(na, nb)) > 5e-4)
+      return std::nullopt;
+    return from_outside == (ta < tb) ? hit_at(ray, ta, 1, a) : hit_at(ray, tb, 2, b);
   };
 }
 
