@@ -39,10 +39,14 @@ std::vector<CoincidentScene> curved_scenes() {
                   {1, 3, above(12)}}},
 
       {.name = "common_part_of_shafts",
-       .text = "intersection() { cylinder(h = 6, r = 4); translate([0, 0, 2]) cylinder(h = 6, r = "
-               "4); }",
-       .equal = "translate([0, 0, 2]) cylinder(h = 4, r = 4);",
-       .owners = {{1, 1, above(2)}, {1, 2, below(2)}}},
+       .text = R"(
+           intersection() {
+             cylinder(h = 12, r = 5);
+             translate([0, 0, 1]) cylinder(h = 12, r = 5);
+             translate([0, 0, 0.5]) cylinder(h = 12, r = 5);
+           })",
+       .equal = "translate([0, 0, 1]) cylinder(h = 11, r = 5);",
+       .owners = {{1, 1, above(1)}, {1, 2, below(1)}}},
 
       {.name = "bores_of_two_lengths",
        .text = R"(

@@ -41,9 +41,9 @@ Model turned(const Model& model, const Affine& turn) {
   for (const Instance& instance : instances(model)) {
     const Affine& before = instance.world_from_object;
     if (count++ % 2 == 0)
-      routes[instance.node] = {six_digits(turn * before)};
-    else
       routes[instance.node] = {six_digits(turn), six_digits(before)};
+    else
+      routes[instance.node] = {six_digits(turn * before)};
   }
 
   // Transforms stand in front of their primitive; what was a transform is left as a group.

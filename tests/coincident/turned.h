@@ -10,8 +10,8 @@ namespace whittle {
 Affine turn_of(const Model& model, bool mirrored);
 
 /// The model moved by `turn`, which must keep lengths. Every primitive gets transforms of its own
-/// with numbers of six digits, as OpenSCAD prints them, by two routes in turn: the product of all
-/// that moves it, or the turn around what moved it before. Faces that coincided are then equal only
+/// with numbers of six digits, as OpenSCAD prints them, by two routes in turn: the turn around
+/// what moved it before, or the product of both. Faces that coincided are then equal only
 /// as far as six digits go.
 Model turned(const Model& model, const Affine& turn);
 
