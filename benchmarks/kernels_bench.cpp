@@ -51,8 +51,8 @@ void root_along_ray(benchmark::State& state) {
   size_t i = 0;
   for (auto _ : state) {
     const HalfSpace& h = scene.half_spaces[i++ % scene.half_spaces.size()];
-    const Vec3 f = K::quadric_along_ray(h.f, Vec3{1, 2, 3} - h.center, direction);
-    benchmark::DoNotOptimize(K::quadratic_root(f.x, f.y, f.z, false));
+    benchmark::DoNotOptimize(
+        K::along_root(K::quadric_along_ray(h.f, Vec3{1, 2, 3} - h.center, direction), false));
   }
 }
 BENCHMARK(root_along_ray);

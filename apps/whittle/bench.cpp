@@ -105,7 +105,6 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   }
   if (Status fit = say_warnings(*read, a.loading); !fit) return fit.error();
 
-  const Camera camera = camera_for(read->model, a.view);
   std::optional<Renderer> renderer;
   for (int i = 0; i < a.repeat; ++i) {
     renderer.reset();
@@ -114,6 +113,7 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
     renderer = *std::move(again);
     lower.push_back(renderer->times().lower);
   }
+  const Camera camera = renderer->camera(a.view);
   renderer->prepare(camera);
   if (Status right =
           check(file, read->model, camera, *renderer, a.renderer.subdivide.ignore_small, json);

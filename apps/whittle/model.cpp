@@ -14,6 +14,7 @@
 #include "io/generate.h"
 #include "option_group.h"
 #include "whittle/output.h"
+#include "whittle/renderer.h"
 
 namespace whittle {
 namespace {
@@ -64,7 +65,9 @@ Result<std::string> make_text(const ModelArguments& a) {
   }
   const Result<Read> read = read_csg(*csg, a.name + ".csg");
   if (!read) return read.error();
-  return write_pov(read->model, camera_for(read->model, a.view), a.shading);
+  Result<Renderer> renderer = Renderer::make(read->model, {});
+  if (!renderer) return renderer.error();
+  return write_pov(read->model, renderer->camera(a.view), a.shading);
 }
 
 }  // namespace

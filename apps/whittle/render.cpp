@@ -166,9 +166,9 @@ Status render(RenderArguments& a) {
 
   apply(a.subdivision, a.renderer);
   a.shading.background = !a.no_background;
-  const Camera camera = camera_for(model, a.view);
   Result<Renderer> renderer = Renderer::make(model, a.renderer);
   if (!renderer) return renderer.error();
+  const Camera camera = renderer->camera(a.view);
   Frame frame;
   Picture picture;
   draw(a, *outputs, camera, *renderer, frame, picture);

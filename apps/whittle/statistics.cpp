@@ -85,10 +85,11 @@ std::string statistics(const Model& model, const Renderer& renderer, bool is_aut
     add_rays(out, renderer.trace_stats());
   }
   const StageTimes& s = renderer.times();
-  fmt::format_to(out,
-                 "time (ms)     {:>12.1f}   read {:.1f}, lower {:.1f}, subdivide {:.1f}, "
-                 "trace {:.1f}, shade {:.1f}, write {:.1f}\n",
-                 times.total, times.read, s.lower, s.subdivide, s.trace, s.shade, times.write);
+  fmt::format_to(
+      out,
+      "time (ms)     {:>12.1f}   read {:.1f}, lower {:.1f}, frame {:.1f}, subdivide {:.1f}, "
+      "trace {:.1f}, shade {:.1f}, write {:.1f}\n",
+      times.total, times.read, s.lower, s.frame, s.subdivide, s.trace, s.shade, times.write);
   fmt::format_to(out, "memory        {:>12}   at most", describe_bytes(peak_memory_bytes()));
   return text;
 }

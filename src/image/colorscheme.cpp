@@ -13,7 +13,12 @@ constexpr Rgb8 hex(uint32_t rgb) {
 
 constexpr ColorScheme flat(std::string_view name, uint32_t background, uint32_t front,
                            uint32_t back) {
-  return {name, hex(background), hex(background), hex(front), hex(back)};
+  return {name, hex(background), hex(background), hex(front), hex(back), hex(front)};
+}
+
+constexpr ColorScheme with_lone(ColorScheme scheme, uint32_t lone) {
+  scheme.lone = hex(lone);
+  return scheme;
 }
 
 constexpr std::array kSchemes{
@@ -27,9 +32,10 @@ constexpr std::array kSchemes{
     flat("Nocturnal Gem", 0x0C0C0C, 0x02DAF7, 0x014DA1),
     flat("DeepOcean", 0x333333, 0xEEEEEE, 0x0BABC8),
     flat("Solarized", 0xFDF6E3, 0xB58800, 0x882233),
-    flat("Tomorrow", 0xF8F8F8, 0x4271AE, 0xF5871F),
-    flat("Tomorrow Night", 0x1D1F21, 0x81A2BE, 0xDE935F),
-    ColorScheme{"ClearSky", hex(0x87CEEB), hex(0xC9E9F6), hex(0xF9D72C), hex(0x9DCB51)},
+    with_lone(flat("Tomorrow", 0xF8F8F8, 0x3E999F, 0xEAB700), 0x4271AE),
+    with_lone(flat("Tomorrow Night", 0x1D1F21, 0x8ABEB7, 0xF0C674), 0x81A2BE),
+    ColorScheme{"ClearSky", hex(0x87CEEB), hex(0xC9E9F6), hex(0xFFEC5E), hex(0x9DCB51),
+                hex(0xF9D72C)},
     flat("Monotone", 0xFFFFE5, 0xF9D72C, 0xF9D72C),
 };
 

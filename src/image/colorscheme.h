@@ -1,7 +1,8 @@
 // OpenSCAD's colour schemes: background, material, cut surfaces.
 //
 // The values are those of OpenSCAD's ColorMap.cc and color-schemes/render (csg facts,
-// re-described).
+// re-described): of evaluated solids, as --render shows them. Some schemes paint a body that
+// nothing was done to, and all of the preview, in another colour.
 #pragma once
 
 #include <span>
@@ -17,6 +18,7 @@ struct ColorScheme {
   Rgb8 background_top, background_bottom;  ///< the same but for gradients
   Rgb8 front;                              ///< uncoloured material
   Rgb8 back;                               ///< uncoloured cut surfaces
+  Rgb8 lone;                               ///< a primitive that is all of the solid
 };
 
 /// All schemes in OpenSCAD's order; the first, Cornfield, is its default.

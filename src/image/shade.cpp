@@ -28,10 +28,10 @@ Vec3f linear(Vec3f srgb) {
 
 /// The studio's own colours: a light backdrop, a cool light grey for material, a warm one for cuts.
 constexpr ColorScheme kStudioScheme{
-    "", {250, 251, 252}, {218, 222, 228}, {196, 206, 218}, {231, 199, 165}};
+    "", {250, 251, 252}, {218, 222, 228}, {196, 206, 218}, {231, 199, 165}, {196, 206, 218}};
 /// As in the studio, but flat white behind: the paper's pictures stand on white.
 constexpr ColorScheme kBlinnScheme{
-    "", {255, 255, 255}, {255, 255, 255}, {196, 206, 218}, {231, 199, 165}};
+    "", {255, 255, 255}, {255, 255, 255}, {196, 206, 218}, {231, 199, 165}, {196, 206, 218}};
 
 // The studio. Colours are linear; lights are directions in eye space (right, up, towards the
 // viewer).
@@ -71,8 +71,10 @@ Shader::Shader(const Camera& camera, std::span<const Appearance> appearances,
     : style_(settings.style),
       has_background_(settings.background),
       inverse_height_(1 / float(camera.height)),
+      camera_(camera),
       rays_(camera),
-      light_from_eye_(PixelRays::to_float(settings.light.value_or(camera.eye) - camera.eye)) {
+      light_from_eye_(PixelRays::to_float(settings.light.value_or(camera.eye) - camera.eye)),
+      cut_faces_(settings.cut_faces) {
   const auto world_from_eye = [&](Vec3f v) {
     return normalize(rays_.right * v.x + rays_.up * v.y - rays_.forward * v.z);
   };
@@ -86,8 +88,15 @@ Shader::Shader(const Camera& camera, std::span<const Appearance> appearances,
   top_ = decode(to_unit(scheme.background_top));
   bottom_ = decode(to_unit(scheme.background_bottom));
   material_ = decode(to_unit(scheme.front));
+  cut_ = decode(to_unit(scheme.back));
   base_.reserve(appearances.size());
-  for (const Appearance& a : appearances) base_.push_back(decode(base_color(a, scheme)));
+  for (const Appearance& a : appearances) {
+    const Vec3f openscad = a.cut ? cut_ : material_;
+    base_.push_back(style_ == Style::kOpenscad ? openscad : decode(base_color(a, scheme)));
+  }
+  if (style_ == Style::kOpenscad && settings.lone_primitive &&
+      *settings.lone_primitive < base_.size())
+    base_[*settings.lone_primitive] = to_unit(scheme.lone);
 }
 
 Vec3f Shader::background(float py) const {
@@ -104,11 +113,16 @@ Vec3f Shader::surface(const Hit& hit, float px, float py) const {
     case Style::kOpenscad:
       break;
   }
-  return openscad(hit, base);
+  return openscad(hit, base, px, py);
 }
 
 // OpenSCAD: rgb = base * (0.2 + |n.l|), two opposite lights fixed to the camera.
-Vec3f Shader::openscad(const Hit& hit, Vec3f base) const {
+Vec3f Shader::openscad(const Hit& hit, Vec3f base, float px, float py) const {
+  if (cut_faces_ != nullptr && cut_faces_->is_contested(hit.id)) {
+    const Ray ray = camera_.ray(px, py);
+    const Vec3 point = ray.origin + ray.direction * double(hit.distance);
+    base = cut_faces_->is_cut(hit.id, point) ? cut_ : material_;
+  }
   return base * (0.2f + std::fabs(dot(hit.normal, headlight_)));
 }
 

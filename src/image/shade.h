@@ -11,6 +11,7 @@
 
 #include "base/workers.h"
 #include "image/colorscheme.h"
+#include "image/cut_faces.h"
 #include "image/picture.h"
 #include "image/pixel_rays.h"
 #include "model/instances.h"
@@ -22,7 +23,7 @@ namespace whittle {
 enum class Style {
   kStudio,    ///< soft lights fixed to the camera, computed in linear light
   kBlinn,     ///< one positional light, Blinn highlight; values are display values, as in the paper
-  kOpenscad,  ///< what OpenSCAD's preview draws, without its drawing order's mistakes
+  kOpenscad,  ///< what OpenSCAD's --render draws; it knows no color()
 };
 
 struct ShadeSettings {
@@ -32,6 +33,10 @@ struct ShadeSettings {
   const ColorScheme* scheme = nullptr;
   std::optional<Vec3> light;  ///< kBlinn: position in world space; unset: the eye
   bool background = true;     ///< false: what is not hit is transparent (alpha 0)
+  /// kOpenscad: the model's, for coincident faces; null: the owner of a hit decides what is cut.
+  const CutFaces* cut_faces = nullptr;
+  /// kOpenscad: the primitive that is all of the solid, if it is one; it has a colour of its own.
+  std::optional<uint32_t> lone_primitive;
 };
 
 /// kBlinn: display value = kBlinnAmbient * base + kBlinnDiffuse * base * max(n.l, 0) +
@@ -44,6 +49,7 @@ inline constexpr int kBlinnExponent = 16;
 ColorScheme effective_scheme(const ShadeSettings& settings);
 
 /// The display value of a surface before any light falls on it: its own colour, else the scheme's.
+/// Not in style kOpenscad, which knows the scheme's alone.
 Vec3f base_color(const Appearance& appearance, const ColorScheme& scheme);
 
 /// Colours hits of one model seen by one camera. Colours are in the style's averaging space: linear
@@ -70,18 +76,20 @@ class Shader {
   Vec3f surface(const Hit& hit, float px, float py) const;
   Vec3f studio(const Hit& hit, Vec3f base, float px, float py) const;
   Vec3f blinn(const Hit& hit, Vec3f base, float px, float py) const;
-  Vec3f openscad(const Hit& hit, Vec3f base) const;
+  Vec3f openscad(const Hit& hit, Vec3f base, float px, float py) const;
 
   Style style_;
   bool has_background_;
   float inverse_height_;
+  Camera camera_;
   PixelRays rays_;
   Vec3f light_from_eye_;     ///< kBlinn
   Vec3f headlight_;          ///< kOpenscad: one of its two opposite directions
   Vec3f key_, fill_, rim_;   ///< kStudio: unit, from the surface to the light
   Vec3f top_, bottom_;       ///< background
   std::vector<Vec3f> base_;  ///< by id
-  Vec3f material_;
+  Vec3f material_, cut_;
+  const CutFaces* cut_faces_;  ///< kOpenscad
 };
 
 /// Colours every pixel, in parallel. A pure function: the same bytes on any number of threads.

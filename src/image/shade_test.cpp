@@ -60,7 +60,7 @@ TEST(Shade, OpenscadValuesAreThoseMeasuredInOpenscad) {
   EXPECT_EQ(face({1, 0, 0}), (Rgb8{165, 143, 29}));
 }
 
-TEST(Shade, OpenscadColorsFollowTheAppearance) {
+TEST(Shade, OpenscadKnowsMaterialAndCutsAndNoColors) {
   const auto base = [](uint32_t id) {
     // Where |n.l| = 0.8 the base colour is seen as it is.
     const Camera camera = default_camera();
@@ -72,9 +72,18 @@ TEST(Shade, OpenscadColorsFollowTheAppearance) {
   };
   EXPECT_EQ(base(1), (Rgb8{0xF9, 0xD7, 0x2C}));
   EXPECT_EQ(base(2), (Rgb8{0x9D, 0xCB, 0x51}));
-  EXPECT_EQ(base(3), (Rgb8{255, 0, 102}));
+  EXPECT_EQ(base(3), (Rgb8{0x9D, 0xCB, 0x51}));
   EXPECT_EQ(base(4), (Rgb8{0xF9, 0xD7, 0x2C}));
   EXPECT_EQ(base(999), (Rgb8{0xF9, 0xD7, 0x2C})) << "an id that the model does not know";
+}
+
+TEST(Shade, OpenscadHasAColorForALonePrimitive) {
+  ShadeSettings settings = styled(Style::kOpenscad);
+  settings.scheme = find_color_scheme("Tomorrow");
+  const Hit top{30, 1, {0, 0, 1}};
+  EXPECT_EQ(shade_one(top, default_camera(), kAppearances, settings), (Rgb8{62, 154, 160}));
+  settings.lone_primitive = 1;
+  EXPECT_EQ(shade_one(top, default_camera(), kAppearances, settings), (Rgb8{66, 113, 175}));
 }
 
 TEST(Shade, ASchemeReplacesTheColorsInEveryStyle) {

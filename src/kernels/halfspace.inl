@@ -30,15 +30,54 @@ FN Vec3 quadric_half_gradient(Quadric f, Vec3 q) {
   return make_vec3(g.x + f.b.x, g.y + f.b.y, g.z + f.b.z);
 }
 
-// f(o + t d) = x t^2 + 2 y t + z along a ray; o relative to the half-space's centre.
-FN Vec3 quadric_along_ray(Quadric f, Vec3 o, Vec3 d) {
-  Vec3 ad = quadric_apply(f, d);
-  return make_vec3(dot3(ad, d), dot3(ad, o) + dot3(f.b, d), quadric_value(f, o));
+// f along a ray o + t d (o relative to the half-space's centre, d unit) as a quadratic about some
+// place of the ray: with s = t - about it is a s^2 + 2 h s + k.
+struct AlongRay {
+  Real a;
+  Real h;
+  Real k;
+  Real about;
+};
+
+FN AlongRay make_along(Real a, Real h, Real k, Real about) {
+  AlongRay r;
+  r.a = a;
+  r.h = h;
+  r.k = k;
+  r.about = about;
+  return r;
 }
 
-// The same for a sphere, diag = (scale, scale, scale), and a unit direction.
-FN Vec3 sphere_along_ray(Real scale, Real c, Vec3 o, Vec3 d) {
-  return make_vec3(scale, scale * dot3(o, d), scale * dot3(o, o) + c);
+// A plane's: b is half its normal.
+FN AlongRay plane_along_ray(Vec3 b, Vec3 o, Vec3 d) {
+  return make_along(K(0), dot3(b, d), K(2) * dot3(b, o), K(0));
+}
+
+// A sphere's, diag = (scale, scale, scale).
+FN AlongRay sphere_along_ray(Real scale, Real c, Vec3 o, Vec3 d) {
+  return make_along(scale, scale * dot3(o, d), scale * dot3(o, o) + c, K(0));
+}
+
+FN AlongRay quadric_along_ray(Quadric f, Vec3 o, Vec3 d) {
+  Vec3 ad = quadric_apply(f, d);
+  return make_along(dot3(ad, d), dot3(ad, o) + dot3(f.b, d), quadric_value(f, o), K(0));
+}
+
+// The same for a surface that is small beside o, or flat: squares of what is large would drown it
+// in their rounding, so it is taken about a place next to it. That is where f is flat along the ray
+// (inside a flat body, where its largest terms vanish), unless this is far from the place nearest
+// to the centre, which is the better choice then.
+FN AlongRay small_quadric_along_ray(Quadric f, Vec3 o, Vec3 d) {
+  Real near = K(0) - dot3(o, d);
+  Vec3 p = make_vec3(o.x + d.x * near, o.y + d.y * near, o.z + d.z * near);
+  Vec3 ad = quadric_apply(f, d);
+  Real bd = dot3(f.b, d);
+  Real a = dot3(ad, d);
+  Real h = dot3(ad, p) + bd;
+  Bool close = h * h < K(256) * a * a * dot3(p, p);
+  Real step = select(close, K(0) - h / select(close, a, K(1)), K(0));
+  Vec3 q = make_vec3(p.x + d.x * step, p.y + d.y * step, p.z + d.z * step);
+  return make_along(a, dot3(ad, q) + bd, quadric_value(f, q), near + step);
 }
 
 // a t^2 + 2 h t + k.
@@ -54,6 +93,12 @@ FN Real quadratic_root(Real a, Real h, Real k, Bool rising) {
   Real w = select(rising, s, K(0) - s);  // a t = w - h
   Bool cancels = h * w > K(0);
   return select(cancels, k, w - h) / select(cancels, K(0) - (h + w), a);
+}
+
+FN Real along_value(AlongRay f, Real t) { return quadratic_value(f.a, f.h, f.k, t - f.about); }
+
+FN Real along_root(AlongRay f, Bool rising) {
+  return f.about + quadratic_root(f.a, f.h, f.k, rising);
 }
 
 // Bounds of a sphere's f over the box with centre m and half size h: exact (from the box's nearest

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -166,6 +167,53 @@ std::vector<Appearance> appearances(const Model& model) {
     }
   }
   return result;
+}
+
+std::optional<uint32_t> lone_primitive(const Model& model) {
+  struct Open {
+    uint32_t node = 0;
+    uint32_t operands = 0;
+    uint32_t primitive = 0;  ///< the last operand's
+    bool combined = false;   ///< it is the last operand's work, or ours
+  };
+  std::vector<Open> open{{}};
+  const std::vector<Instance> all = instances(model);
+  size_t next_instance = 0;
+  const auto give = [&](uint32_t primitive, bool combined) {
+    Open& parent = open.back();
+    const NodeKind kind = model.nodes[parent.node].kind;
+    const bool counts_empty = kind == NodeKind::kDifference || kind == NodeKind::kIntersection;
+    if (primitive == 0 && !combined && !counts_empty) return;
+    ++parent.operands;
+    parent.primitive = primitive;
+    parent.combined = combined || parent.operands > 1;
+  };
+  const auto close_before = [&](uint32_t i) {
+    while (open.size() > 1 && model.nodes[open.back().node].end <= i) {
+      const Open done = open.back();
+      open.pop_back();
+      give(done.primitive, done.combined);
+    }
+  };
+  for (uint32_t i = 1; i < model.nodes.size();) {
+    const Node& node = model.nodes[i];
+    close_before(i);
+    if (node.background) {
+      i = node.end;
+      continue;
+    }
+    if (node.kind == NodeKind::kPrimitive) {
+      const Instance& instance = all[next_instance++];
+      give(instance.empty ? 0 : model.primitives[instance.primitive].id, false);
+    } else {
+      open.push_back({.node = i});
+    }
+    ++i;
+  }
+  close_before(uint32_t(model.nodes.size()));
+  const Open& whole = open.front();
+  if (whole.combined || whole.primitive == 0) return std::nullopt;
+  return whole.primitive;
 }
 
 Box instance_box(const Model& model, const Instance& instance) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,11 @@ struct Appearance {
 
 /// Indexed by primitive id; entry 0 (background) is a default.
 std::vector<Appearance> appearances(const Model& model);
+
+/// The id of the primitive that the solid is, if no operator had two operands to combine. Operands
+/// without a primitive that is not empty count for difference and intersection, as in OpenSCAD, and
+/// not for the others.
+std::optional<uint32_t> lone_primitive(const Model& model);
 
 /// Where the solid can be.
 struct Bounds {

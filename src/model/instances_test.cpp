@@ -207,6 +207,28 @@ TEST(Appearances, CutIsAnOddNumberOfSubtractions) {
   EXPECT_TRUE(looks[6].cut);
 }
 
+TEST(LonePrimitive, IsOneThatNothingWasCombinedWith) {
+  const Shape nothing = Cube{.size = {0, 1, 1}, .center = false};
+  const auto wrapped = [] { return Builder().open(NodeKind::kUnion).color({1, 0, 0, 1}); };
+  EXPECT_EQ(lone_primitive(Builder().done()), std::nullopt);
+  EXPECT_EQ(lone_primitive(wrapped().add(unit_cube()).done()), 1u);
+  EXPECT_EQ(lone_primitive(wrapped().add(unit_cube()).add(unit_cube()).done()), std::nullopt);
+  // What is empty is no operand of a union.
+  EXPECT_EQ(lone_primitive(wrapped().add(nothing).add(unit_cube()).done()), 2u);
+  EXPECT_EQ(lone_primitive(wrapped().add(unit_cube(), true).add(unit_cube()).done()), 2u);
+  for (const NodeKind kind : {NodeKind::kDifference, NodeKind::kIntersection}) {
+    EXPECT_EQ(lone_primitive(Builder().open(kind).add(unit_cube()).done()), 1u);
+    EXPECT_EQ(lone_primitive(Builder().open(kind).add(unit_cube()).add(nothing).done()),
+              std::nullopt);
+    EXPECT_EQ(lone_primitive(Builder().open(kind).add(unit_cube()).add(unit_cube(), true).done()),
+              1u);
+    EXPECT_EQ(
+        lone_primitive(
+            Builder().open(kind).add(unit_cube()).open(NodeKind::kUnion).close().close().done()),
+        std::nullopt);
+  }
+}
+
 TEST(Bounds, FollowTheTree) {
   const auto two = [](NodeKind kind) {
     return bounds(Builder()

@@ -50,6 +50,15 @@ Error camera_error(std::string message) {
   return {ErrorKind::kUsage, std::move(message)};
 }
 
+bool gives_camera(const ViewOptions& options) {
+  return options.eye || options.center || options.target || options.rotation_degrees ||
+         options.distance;
+}
+
+bool gives_view(const FileView& file) {
+  return file.target || file.rotation_degrees || file.distance || file.fov_degrees;
+}
+
 }  // namespace
 
 Result<ViewOptions> parse_camera(std::string_view text, ViewOptions base) {
@@ -92,14 +101,16 @@ Result<ViewOptions> parse_camera(std::string_view text, ViewOptions base) {
       quoted);
 }
 
+bool frames_the_solid(const ViewOptions& options, const FileView& file) {
+  return gives_camera(options) ? options.view_all : !gives_view(file);
+}
+
 Camera make_camera(const ViewOptions& options, const FileView& file, const Box& framed_box) {
   WHITTLE_CHECK(options.width > 0 && options.height > 0);
   const bool vector_given = options.eye || options.center;
-  const bool camera_given =
-      vector_given || options.target || options.rotation_degrees || options.distance;
-  const bool file_given =
-      !camera_given && (file.target || file.rotation_degrees || file.distance || file.fov_degrees);
-  const bool view_all = camera_given ? options.view_all : !file_given;
+  const bool camera_given = gives_camera(options);
+  const bool file_given = !camera_given && gives_view(file);
+  const bool view_all = frames_the_solid(options, file);
   const bool auto_center = camera_given ? options.auto_center : !file_given;
   const FileView said = file_given ? file
                                    : FileView{.target = options.target,

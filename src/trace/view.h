@@ -41,6 +41,10 @@ struct ViewOptions {
 /// distance) or six `ex,ey,ez,cx,cy,cz` (eye and centre). Anything else is a kUsage error.
 Result<ViewOptions> parse_camera(std::string_view text, ViewOptions base = {});
 
+/// Whether make_camera would look at `framed_box`: view-all is asked for, or nothing is said about
+/// the view.
+bool frames_the_solid(const ViewOptions& options, const FileView& file);
+
 /// The camera that OpenSCAD would use. `framed_box` is what view-all fits. Without a camera and
 /// without $vp* in the file, view-all and auto-centre are both on; $vp* without a camera turn both
 /// off, even if asked for. An empty or infinite box is not fitted: the distance and the target

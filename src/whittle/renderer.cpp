@@ -9,8 +9,10 @@
 
 #include "base/workers.h"
 #include "image/antialias.h"
+#include "image/cut_faces.h"
 #include "lower/lower.h"
 #include "model/instances.h"
+#include "subdivide/solid_bounds.h"
 #include "trace/oracle/oracle.h"
 #include "trace/pixel_threshold.h"
 
@@ -36,10 +38,6 @@ Status check_picture_size(int64_t width, int64_t height) {
                            width, height, kMostSide, kMostPixels)};
 }
 
-Camera camera_for(const Model& model, const ViewOptions& options) {
-  return make_camera(options, model.view, bounds(model).box);
-}
-
 struct Renderer::State {
   const Model& model;
   RendererSettings settings;
@@ -47,7 +45,8 @@ struct Renderer::State {
   std::vector<Appearance> looks;
   StageTimes times;
   // In the order in which they are made from one another.
-  std::optional<Scene> scene;
+  Scene scene;
+  std::optional<CutFaces> cut_faces;  ///< made when a style first asks
   std::optional<CellTree> cells;
   std::unique_ptr<Tracer> tracer;
   CpuTracer* cpu = nullptr;  ///< the tracer, if it is that one
@@ -66,13 +65,24 @@ Result<Renderer> Renderer::make(const Model& model, const RendererSettings& sett
   if (settings.backend == Backend::kAuto) state->settings.backend = Backend::kCpu;
   const auto start = Clock::now();
   state->looks = appearances(model);
-  if (state->settings.backend != Backend::kOracle) {
-    Result<Scene> scene = lower(model);
-    if (!scene) return scene.error();
-    state->scene = std::move(*scene);
-  }
+  Result<Scene> scene = lower(model);
+  if (!scene) return scene.error();
+  state->scene = std::move(*scene);
   state->times.lower = milliseconds_since(start);
   return Renderer(std::move(state));
+}
+
+Camera Renderer::camera(const ViewOptions& options) {
+  State& s = *state_;
+  const FileView& file = s.model.view;
+  const auto start = Clock::now();
+  Box framed;
+  if (frames_the_solid(options, file)) {
+    const SolidBounds solid = solid_bounds(s.scene, s.settings.threads);
+    framed = solid.bounded ? solid.box : bounds(s.model).box;
+  }
+  s.times.frame = milliseconds_since(start);
+  return make_camera(options, file, framed);
 }
 
 void Renderer::prepare(const Camera& camera) {
@@ -92,8 +102,8 @@ void Renderer::prepare(const Camera& camera) {
       return is_below_pixels(camera, box, pixels);
     };
   }
-  s.cells = subdivide(*s.scene, settings);
-  std::unique_ptr<CpuTracer> cpu = make_cpu_tracer(*s.scene, *s.cells, s.settings.threads);
+  s.cells = subdivide(s.scene, settings);
+  std::unique_ptr<CpuTracer> cpu = make_cpu_tracer(s.scene, *s.cells, s.settings.threads);
   s.cpu = cpu.get();
   s.tracer = std::move(cpu);
   s.times.subdivide = milliseconds_since(start);
@@ -110,8 +120,13 @@ Picture Renderer::shade(const Frame& frame, const Camera& camera, const ShadeSet
                         int antialias) {
   State& s = *state_;
   const auto start = Clock::now();
-  Picture picture =
-      shade_antialiased(tracer(), camera, frame, s.looks, settings, antialias, s.workers);
+  ShadeSettings look = settings;
+  if (look.style == Style::kOpenscad) {
+    if (!s.cut_faces) s.cut_faces.emplace(s.scene);
+    look.cut_faces = &*s.cut_faces;
+    look.lone_primitive = lone_primitive(s.model);
+  }
+  Picture picture = shade_antialiased(tracer(), camera, frame, s.looks, look, antialias, s.workers);
   s.times.shade = milliseconds_since(start);
   return picture;
 }
@@ -126,7 +141,7 @@ Backend Renderer::backend() const {
 }
 
 const Scene* Renderer::scene() const {
-  return state_->scene ? &*state_->scene : nullptr;
+  return state_->settings.backend == Backend::kOracle ? nullptr : &state_->scene;
 }
 
 const CellTree* Renderer::cells() const {

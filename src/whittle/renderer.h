@@ -27,9 +27,6 @@ inline constexpr int kMostThreads = 1024;
 /// A kUsage error if a picture of that size is not made.
 Status check_picture_size(int64_t width, int64_t height);
 
-/// The camera for a model: OpenSCAD's, framing the bounds of the solid where view-all is on.
-Camera camera_for(const Model& model, const ViewOptions& options);
-
 /// Rays a side of an edge pixel where nobody says: what looks right. The styles that show what
 /// others show (the paper, OpenSCAD) have no antialiasing, as those have none.
 constexpr int default_antialias(Style style) {
@@ -45,7 +42,7 @@ struct RendererSettings {
 
 /// Milliseconds that each stage took when it was last run.
 struct StageTimes {
-  double lower = 0, subdivide = 0, trace = 0, shade = 0;
+  double lower = 0, frame = 0, subdivide = 0, trace = 0, shade = 0;
 };
 
 /// One model and what is made of it. The steps are called in their order; each can be repeated, and
@@ -58,6 +55,10 @@ class Renderer {
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
 
+  /// OpenSCAD's camera for these options and the model's $vp*, framing the solid (solid_bounds)
+  /// where view-all is on. Of a solid that has no end, what bounds() says is framed.
+  Camera camera(const ViewOptions& options);
+
   /// Makes the cells and the tracer. The camera counts only if there is a pixel threshold. The
   /// oracle has no cells.
   void prepare(const Camera& camera);
@@ -69,7 +70,7 @@ class Renderer {
   Tracer& tracer();
   /// The backend that is used; never kAuto.
   Backend backend() const;
-  /// Null with the oracle.
+  /// Null with the oracle, which does not use it.
   const Scene* scene() const;
   const CellTree* cells() const;
   /// All zero with the oracle.

@@ -22,10 +22,17 @@ ViewOptions small_view() {
   return view;
 }
 
-Frame frame_of(const Model& model, const RendererSettings& settings) {
-  const Camera camera = camera_for(model, small_view());
+Camera camera_of(const Model& model, const ViewOptions& view,
+                 const RendererSettings& settings = {}) {
   Result<Renderer> renderer = Renderer::make(model, settings);
   EXPECT_TRUE(bool(renderer));
+  return renderer->camera(view);
+}
+
+Frame frame_of(const Model& model, const RendererSettings& settings) {
+  Result<Renderer> renderer = Renderer::make(model, settings);
+  EXPECT_TRUE(bool(renderer));
+  const Camera camera = renderer->camera(small_view());
   renderer->prepare(camera);
   return renderer->trace(camera);
 }
@@ -42,9 +49,46 @@ TEST(Renderer, FramesTheBoundsOfTheSolid) {
   // The cutter is far larger than what it cuts, and that says nothing.
   const Model model =
       model_of("difference() { cube(2, center = true); cylinder(h = 99, r = 0.5); }");
-  const Camera camera = camera_for(model, small_view());
+  const Camera camera = camera_of(model, small_view());
   // d = (diagonal / 2) / sin(fov / 2), looking at the middle.
   EXPECT_NEAR(length(camera.eye), std::sqrt(3.0) / std::sin(11.25 / 180 * std::acos(-1.0)), 1e-9);
+}
+
+TEST(Renderer, FramesWhatIsLeftOfABodyThatLosesItsEnd) {
+  const Model cut = model_of("difference() { cube([2, 2, 9]); translate([-1, -1, 2]) cube(99); }");
+  const Model whole = model_of("cube(2);");
+  EXPECT_LT(length(camera_of(cut, small_view()).eye - camera_of(whole, small_view()).eye), 1e-4);
+}
+
+TEST(Renderer, FramesAlikeWithEveryBackend) {
+  const Model model = model_of(kPart);
+  for (const Backend backend : {Backend::kCpu, Backend::kOracle})
+    EXPECT_EQ(camera_of(model, small_view(), {.backend = backend, .subdivide = {}}).eye,
+              camera_of(model, small_view()).eye);
+}
+
+TEST(Renderer, ASolidWithoutEndIsFramedByItsFiniteParts) {
+  const Model endless = model_of("cube(2); halfspace(n = [0, 0, 1], d = 0);");
+  const Model finite = model_of("cube(2);");
+  EXPECT_EQ(camera_of(endless, small_view()).eye, camera_of(finite, small_view()).eye);
+}
+
+TEST(Renderer, StyleOpenscadPaintsWhatTheSolidHoldsNotWhatOwnsIt) {
+  // The cutter only touches the top, whose owner is the cube; OpenSCAD paints it as cut.
+  const Model model = model_of("difference() { cube(10); translate([-1, -1, 10]) cube(20); }");
+  Result<Renderer> renderer = Renderer::make(model, {});
+  ASSERT_TRUE(bool(renderer));
+  ViewOptions down = small_view();
+  down.target = Vec3{5, 5, 0}, down.rotation_degrees = Vec3{}, down.distance = 100;
+  const Camera camera = renderer->camera(down);
+  renderer->prepare(camera);
+  const Frame frame = renderer->trace(camera);
+  EXPECT_EQ(frame.at(12, 12).id, 1u);
+  ShadeSettings settings;
+  settings.style = Style::kOpenscad;
+  const Picture picture = renderer->shade(frame, camera, settings, 1);
+  const uint8_t* top = picture.at(12, 12);
+  EXPECT_GT(top[1], top[0]) << "green, not yellow";
 }
 
 TEST(Renderer, AutoIsABackendThatIsNamed) {
@@ -52,7 +96,7 @@ TEST(Renderer, AutoIsABackendThatIsNamed) {
   Result<Renderer> renderer = Renderer::make(model, {});
   ASSERT_TRUE(bool(renderer));
   EXPECT_NE(renderer->backend(), Backend::kAuto);
-  renderer->prepare(camera_for(model, small_view()));
+  renderer->prepare(renderer->camera(small_view()));
   EXPECT_STREQ(renderer->tracer().name(), name_of(backend_choices(), renderer->backend()));
 }
 
@@ -60,7 +104,7 @@ TEST(Renderer, TheOracleHasNeitherHalfSpacesNorCells) {
   const Model model = model_of(kPart);
   Result<Renderer> renderer = Renderer::make(model, {.backend = Backend::kOracle, .subdivide = {}});
   ASSERT_TRUE(bool(renderer));
-  renderer->prepare(camera_for(model, small_view()));
+  renderer->prepare(renderer->camera(small_view()));
   EXPECT_STREQ(renderer->tracer().name(), "oracle");
   EXPECT_EQ(renderer->scene(), nullptr);
   EXPECT_EQ(renderer->cells(), nullptr);
@@ -69,7 +113,7 @@ TEST(Renderer, TheOracleHasNeitherHalfSpacesNorCells) {
 
 TEST(Renderer, StepsCanBeRepeated) {
   const Model model = model_of(kPart);
-  const Camera camera = camera_for(model, small_view());
+  const Camera camera = camera_of(model, small_view());
   Result<Renderer> renderer = Renderer::make(model, {});
   ASSERT_TRUE(bool(renderer));
   std::vector<Picture> pictures;
@@ -84,7 +128,7 @@ TEST(Renderer, StepsCanBeRepeated) {
 
 TEST(Renderer, ThePixelThresholdReachesTheCells) {
   const Model model = model_of(kPart);
-  const Camera camera = camera_for(model, small_view());
+  const Camera camera = camera_of(model, small_view());
   const auto cells = [&](double threshold) {
     RendererSettings settings;
     settings.subdivide.leaf_size = 1;

@@ -64,7 +64,9 @@ ShadeSettings shading_of(const RenderOptions& o) {
   ShadeSettings shading{.style = value_of(choose(style_choices(), "style", o.style)),
                         .scheme = nullptr,
                         .light = to_vec3(o.light, "light"),
-                        .background = o.background};
+                        .background = o.background,
+                        .cut_faces = nullptr,
+                        .lone_primitive = {}};
   if (!o.color_scheme.empty()) {
     shading.scheme = find_color_scheme(o.color_scheme);
     if (shading.scheme == nullptr) {
@@ -134,11 +136,12 @@ Rendering Solid::render(const RenderOptions& options) const {
     refuse("threads must be 0 to " + std::to_string(kMostThreads));
   }
   const ShadeSettings shading = shading_of(options);
-  const Camera camera = camera_for(state_->read.model, view_of(options));
+  const ViewOptions view = view_of(options);
   RendererSettings settings;
   settings.backend = value_of(choose(backend_choices(), "backend", options.backend));
   settings.threads = options.threads;
   Renderer renderer = value_of(Renderer::make(state_->read.model, settings));
+  const Camera camera = renderer.camera(view);
   renderer.prepare(camera);
   const Frame frame = renderer.trace(camera);
   const int antialias =

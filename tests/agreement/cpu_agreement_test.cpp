@@ -70,7 +70,7 @@ TEST(CpuAgreement, Zoo) {
 
 std::vector<std::string> example_files() {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(WHITTLE_EXAMPLES))
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(WHITTLE_EXAMPLES))
     if (entry.path().extension() == ".csg") files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   return files;

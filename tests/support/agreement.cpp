@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,10 @@
 namespace whittle {
 
 namespace {
+
+/// Where a curved surface is as flat to the ray as this and its neighbour misses it, its limb is
+/// between: a surface a little larger shows any normal from here to one square to the ray.
+constexpr double kLimb = 0.02;
 
 constexpr int kLooks = 5;  ///< the centre, then the four displaced ones
 
@@ -57,35 +62,40 @@ bool is_certain(const Looks& looks, Vec3 eye) {
   return true;
 }
 
-/// Does the hit's own ray only touch the surface of that answer, where other looks miss it? Whether
-/// it meets it is then a matter of rounding, and where it does the other looks cannot tell.
+/// Does the hit's own ray only touch surfaces that turn away beside that answer? Which of them it
+/// meets there, or none, is a matter of rounding, and where it does the other looks cannot tell.
 bool touches(const Hit& hit, const Looks& looks, const Hit& answer, const Ray& answer_ray) {
   const bool some_miss = std::any_of(looks.hits.begin(), looks.hits.end(),
                                      [&](const Hit& other) { return other.id != answer.id; });
   const double to_silhouette = std::fabs(dot(to_double(answer.normal), answer_ray.direction));
-  return some_miss &&
+  return some_miss && hit.hit() && answer.hit() &&
          std::fabs(dot(to_double(hit.normal), looks.rays[0].direction)) <= kNormalAgreement &&
          normal_difference(hit.normal, answer.normal) <= kNormalAgreement + 1.5 * to_silhouette;
 }
 
-/// Is `hit` the oracle's answer number `i`, allowing for what the agreement.h constants say?
-bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye) {
+/// Is `hit` the oracle's answer number `i`, allowing for what the agreement.h constants say, and
+/// for a surface that is `across` off?
+bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double across,
+             const AcceptsId& accepts) {
   const Hit& answer = looks.hits[size_t(i)];
   const Ray& ray = looks.rays[size_t(i)];
-  if (hit.id != answer.id) return false;
+  if (touches(hit, looks, answer, ray)) return true;
+  if (hit.hit() != answer.hit() || !accepts(ray, answer, hit.id)) return false;
   if (!hit.hit()) return !std::isfinite(hit.distance);
 
   if (std::fabs(length(to_double(hit.normal)) - 1) > kNormalAgreement) return false;
-  if (touches(hit, looks, answer, ray)) return true;
+  const double steepness = dot(to_double(answer.normal), ray.direction);
   double normal_spread = 0;
-  for (const Hit& other : looks.hits)
+  for (const Hit& other : looks.hits) {
     if (other.id == answer.id)
       normal_spread = std::max(normal_spread, normal_difference(other.normal, answer.normal));
+    else if (across > 0 && std::fabs(steepness) < kLimb)
+      normal_spread = std::max(normal_spread, std::fabs(steepness));
+  }
   if (!(normal_difference(hit.normal, answer.normal) <= kNormalAgreement + normal_spread))
     return false;
 
   double nearest = double(answer.distance), farthest = nearest;
-  const double steepness = dot(to_double(answer.normal), ray.direction);
   for (const Ray& other : looks.rays) {
     // Where the surface turns away within the five rays, its distance says nothing any more.
     if (steepness * dot(to_double(answer.normal), other.direction) <= 0) return true;
@@ -93,19 +103,12 @@ bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye) {
     nearest = std::min(nearest, expected);
     farthest = std::max(farthest, expected);
   }
-  const double slack = kDistanceAgreement * length(point_of(ray, answer) - eye);
+  // Towards a silhouette the way along the ray grows without bounds: the flatter of both counts.
+  const double flatter =
+      std::min(std::fabs(steepness), std::fabs(dot(to_double(hit.normal), ray.direction)));
+  const double slack = kDistanceAgreement * length(point_of(ray, answer) - eye) +
+                       (across > 0 ? across / flatter : 0);
   return double(hit.distance) >= nearest - slack && double(hit.distance) <= farthest + slack;
-}
-
-std::vector<size_t> all_pixels(const Frame& frame) {
-  std::vector<size_t> pixels(frame.hits.size());
-  std::iota(pixels.begin(), pixels.end(), size_t(0));
-  return pixels;
-}
-
-/// The ray through a pixel's centre.
-Ray center_ray(const Camera& camera, size_t pixel) {
-  return camera.ray(int(pixel) % camera.width + 0.5, int(pixel) / camera.width + 0.5);
 }
 
 /// Calls `visit(pixel index, looks)` for the given pixels.
@@ -118,17 +121,22 @@ void look_at_pixels(Tracer& oracle, const Camera& camera, const Frame& frame,
                                                  {-kDisplacement, kDisplacement},
                                                  {kDisplacement, kDisplacement}};
   constexpr size_t kExtra = kLooks - 1;
+  const auto center = [&](size_t pixel) {
+    return std::pair(double(pixel % size_t(camera.width)) + 0.5,
+                     double(pixel / size_t(camera.width)) + 0.5);
+  };
   std::vector<PixelPosition> positions;
   for (const size_t pixel : pixels) {
-    const int x = int(pixel) % camera.width, y = int(pixel) / camera.width;
+    const auto [x, y] = center(pixel);
     for (int i = 1; i < kLooks; ++i)
-      positions.push_back({float(x + 0.5 + kOffsets[i][0]), float(y + 0.5 + kOffsets[i][1])});
+      positions.push_back({float(x + kOffsets[i][0]), float(y + kOffsets[i][1])});
   }
   std::vector<Hit> hits(positions.size());
   oracle.probe(camera, positions, hits);
   for (size_t n = 0; n < pixels.size(); ++n) {
     Looks looks;
-    looks.rays[0] = center_ray(camera, pixels[n]);
+    const auto [x, y] = center(pixels[n]);
+    looks.rays[0] = camera.ray(x, y);
     looks.hits[0] = frame.hits[pixels[n]];
     for (size_t i = 0; i < kExtra; ++i) {
       const PixelPosition& p = positions[n * kExtra + i];
@@ -137,6 +145,22 @@ void look_at_pixels(Tracer& oracle, const Camera& camera, const Frame& frame,
     }
     visit(pixels[n], looks);
   }
+}
+
+std::vector<size_t> all_pixels(const Frame& frame) {
+  std::vector<size_t> pixels(frame.hits.size());
+  std::iota(pixels.begin(), pixels.end(), size_t(0));
+  return pixels;
+}
+
+/// Are the hits so much alike that no second look is needed? Half of what `matches` allows.
+bool are_alike(const Hit& a, const Hit& b) {
+  if (!a.hit() || !b.hit()) return a.hit() == b.hit();
+  const Vec3f n = a.normal - b.normal;
+  constexpr float kNormals = 0.5f * float(kNormalAgreement);
+  return std::fabs(a.distance - b.distance) <=
+             0.5f * float(kDistanceAgreement) * std::fabs(b.distance) &&
+         std::fabs(n.x) <= kNormals && std::fabs(n.y) <= kNormals && std::fabs(n.z) <= kNormals;
 }
 
 std::string describe(const Hit& hit) {
@@ -159,50 +183,6 @@ std::string describe_difference(const Model& model, const Camera& camera, size_t
     for (int i = 1; i < kLooks; ++i)
       text += fmt::format("  or, close by, {}\n", describe(looks.hits[size_t(i)]));
   return text;
-}
-
-/// The pixels whose answer is not the oracle's at the centre. One that is needs no second look:
-/// what the other looks add can only forgive more.
-std::vector<size_t> different_pixels(const Camera& camera, const Frame& expected,
-                                     const Frame& seen) {
-  std::vector<size_t> pixels;
-  for (size_t pixel = 0; pixel < expected.hits.size(); ++pixel) {
-    Looks one;
-    one.rays.fill(center_ray(camera, pixel));
-    one.hits.fill(expected.hits[pixel]);
-    if (!matches(seen.hits[pixel], one, 0, camera.eye)) pixels.push_back(pixel);
-  }
-  return pixels;
-}
-
-AgreementReport compare(const Model& model, Tracer& subject, Tracer& oracle, const Camera& camera,
-                        bool only_different) {
-  const Frame expected = oracle.render(camera), seen = subject.render(camera);
-  AgreementReport report;
-  report.pixels = int(expected.hits.size());
-  if (seen.hits.size() != expected.hits.size()) {
-    report.unexplained = report.pixels;
-    report.first_difference = "the picture has another size";
-    return report;
-  }
-  for (const Hit& hit : expected.hits) report.hits += hit.hit();
-  const std::vector<size_t> pixels =
-      only_different ? different_pixels(camera, expected, seen) : all_pixels(expected);
-  look_at_pixels(oracle, camera, expected, pixels, [&](size_t pixel, const Looks& looks) {
-    const bool certain = is_certain(looks, camera.eye);
-    const Hit& hit = seen.hits[pixel];
-    report.ambiguous += !certain;
-    bool matched = false;
-    for (int i = 0; i < (certain ? 1 : kLooks); ++i)
-      matched = matched || matches(hit, looks, i, camera.eye);
-    if (matched) return;
-    ++(certain ? report.unexplained : report.ambiguous_unmatched);
-    // A certain pixel tells more than an ambiguous one seen before it.
-    if (report.first_difference.empty() || (certain && report.unexplained == 1))
-      report.first_difference =
-          describe_difference(model, camera, pixel, looks, certain, subject.name(), hit);
-  });
-  return report;
 }
 
 Camera look_at(Vec3 target, Vec3 from_direction, double distance, int width, int height) {
@@ -228,14 +208,91 @@ AgreementReport& operator+=(AgreementReport& sum, const AgreementReport& one) {
   return sum;
 }
 
+namespace {
+
+/// Compares the given pixels and adds what it finds to the report.
+void check_pixels(const Model& model, const char* subject, const Frame& seen, Tracer& oracle,
+                  const Frame& expected, std::span<const size_t> pixels, const Camera& camera,
+                  double across, const AcceptsId& accepts, AgreementReport& report) {
+  look_at_pixels(oracle, camera, expected, pixels, [&](size_t pixel, const Looks& looks) {
+    const bool certain = is_certain(looks, camera.eye);
+    const Hit& hit = seen.hits[pixel];
+    report.ambiguous += !certain;
+    bool matched = false;
+    for (int i = 0; i < (certain ? 1 : kLooks); ++i)
+      matched = matched || matches(hit, looks, i, camera.eye, across, accepts);
+    if (matched) return;
+    ++(certain ? report.unexplained : report.ambiguous_unmatched);
+    // A certain pixel tells more than an ambiguous one seen before it.
+    if (report.first_difference.empty() || (certain && report.unexplained == 1))
+      report.first_difference =
+          describe_difference(model, camera, pixel, looks, certain, subject, hit);
+  });
+}
+
+bool has_same_id(const Ray&, const Hit& expected, uint32_t seen) {
+  return expected.id == seen;
+}
+
+/// The pixels that need more than one look.
+std::vector<size_t> different_pixels(const Frame& seen, const Frame& expected, const Camera& camera,
+                                     const AcceptsId& accepts) {
+  std::vector<size_t> different;
+  for (size_t i = 0; i < expected.hits.size(); ++i) {
+    const Hit &hit = seen.hits[i], &answer = expected.hits[i];
+    if (!are_alike(hit, answer) ||
+        (answer.hit() && !accepts(camera.ray(double(i % size_t(camera.width)) + 0.5,
+                                             double(i / size_t(camera.width)) + 0.5),
+                                  answer, hit.id)))
+      different.push_back(i);
+  }
+  return different;
+}
+
+/// The report before any pixel is compared; its `unexplained` says if the pictures cannot be.
+AgreementReport first_report(const Frame& seen, const Frame& expected) {
+  AgreementReport report;
+  report.pixels = int(expected.hits.size());
+  for (const Hit& hit : expected.hits) report.hits += hit.hit();
+  if (seen.hits.size() != expected.hits.size()) {
+    report.unexplained = report.pixels;
+    report.first_difference = "the picture has another size";
+  }
+  return report;
+}
+
+}  // namespace
+
 AgreementReport check_agreement(const Model& model, Tracer& subject, Tracer& oracle,
                                 const Camera& camera) {
-  return compare(model, subject, oracle, camera, false);
+  const Frame expected = oracle.render(camera), seen = subject.render(camera);
+  AgreementReport report = first_report(seen, expected);
+  if (report.unexplained > 0) return report;
+  check_pixels(model, subject.name(), seen, oracle, expected, all_pixels(expected), camera, 0,
+               has_same_id, report);
+  return report;
 }
 
 AgreementReport find_differences(const Model& model, Tracer& subject, Tracer& oracle,
                                  const Camera& camera) {
-  return compare(model, subject, oracle, camera, true);
+  const Frame expected = oracle.render(camera), seen = subject.render(camera);
+  AgreementReport report = first_report(seen, expected);
+  if (report.unexplained > 0) return report;
+  check_pixels(model, subject.name(), seen, oracle, expected,
+               different_pixels(seen, expected, camera, has_same_id), camera, 0, has_same_id,
+               report);
+  return report;
+}
+
+AgreementReport check_pictures(const Model& model, const Frame& seen, Tracer& oracle,
+                               const Frame& expected, const Camera& camera,
+                               const AcceptsId& accepts) {
+  AgreementReport report = first_report(seen, expected);
+  if (report.unexplained > 0) return report;
+  check_pixels(model, "the subject", seen, oracle, expected,
+               different_pixels(seen, expected, camera, accepts), camera, tolerance(bounds(model)),
+               accepts, report);
+  return report;
 }
 
 std::vector<uint8_t> ambiguous_pixels(Tracer& oracle, const Camera& camera, const Frame& frame) {

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -42,10 +43,20 @@ AgreementReport& operator+=(AgreementReport& sum, const AgreementReport& one);
 AgreementReport check_agreement(const Model& model, Tracer& subject, Tracer& oracle,
                                 const Camera& camera);
 
-/// The same verdict sooner, for many models: looks five times only where the subject's answer is
-/// not the oracle's own. So `ambiguous` counts only what was looked at.
+/// The same verdict sooner, for very many models: the oracle looks five times only at pixels where
+/// the subject's answer is not its own, so `ambiguous` counts no others.
 AgreementReport find_differences(const Model& model, Tracer& subject, Tracer& oracle,
                                  const Camera& camera);
+
+/// May the subject show primitive `seen` where the oracle, along `ray`, has the hit `expected`?
+using AcceptsId = std::function<bool(const Ray& ray, const Hit& expected, uint32_t seen)>;
+
+/// As check_agreement, where the pictures are there already and may number the primitives
+/// differently. The oracle looks five times only at pixels where the pictures differ, so
+/// `ambiguous` counts no others.
+AgreementReport check_pictures(const Model& model, const Frame& seen, Tracer& oracle,
+                               const Frame& expected, const Camera& camera,
+                               const AcceptsId& accepts);
 
 /// One byte a pixel, 1 where the oracle does not agree with itself. `frame` is what it rendered.
 std::vector<uint8_t> ambiguous_pixels(Tracer& oracle, const Camera& camera, const Frame& frame);

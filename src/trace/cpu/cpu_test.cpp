@@ -93,6 +93,43 @@ TEST(Cpu, WhereAWallTouchesAnotherTheEarlierOwns) {
   }
 }
 
+TEST(Cpu, AnEyeOnASurfaceHasPassedIt) {
+  Traced model("cube(10, center = true); translate([0, 0, 9]) sphere(2);");
+  // On a face: away from the body there is nothing, into it there is its far side.
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 aside = {0.31 + 0.7 * std::cos(i), 0.57 + 0.7 * std::sin(i), 1};
+    EXPECT_FALSE(model.hit({5, 0, 1}, {6, aside.x, aside.y}).hit());
+    EXPECT_FALSE(model.hit({5, 5, 5}, {6, 5 + aside.x, 5 + aside.y}).hit());
+    EXPECT_GT(model.hit({5, 0, 1}, {4, aside.x, aside.y}).distance, 1);
+  }
+  expect_hit(model.hit({0, 0, 5}, {0, 0, 6}), 2, 2, {0, 0, -1});
+  expect_hit(model.hit({0, 0, 11}, {0, 0, 0}), 4, 2, {0, 0, -1});
+  EXPECT_FALSE(model.hit({0, 0, 11}, {0.1, 0.2, 12}).hit());
+  // On the tip of a cone, where all slopes meet.
+  Traced cone("cylinder(h = 4, r1 = 2, r2 = 0);");
+  EXPECT_FALSE(cone.hit({0, 0, 4}, {1, 0.3, 3}).hit());
+  EXPECT_FALSE(cone.hit({0, 0, 4}, {1, 0.3, 5}).hit());
+  expect_hit(cone.hit({0, 0, 4}, {0, 0, 3}), 4, 1, {0, 0, -1});
+  EXPECT_EQ(model.tracer->stats().disagreements + cone.tracer->stats().disagreements, 0u);
+}
+
+TEST(Cpu, SmallAndFlatBodiesAreExactInLargeModels) {
+  // A millionth of the model wide, far from its middle.
+  Traced ball("cube(1e4, center = true); translate([8000, 3000, 1000]) sphere(0.01);");
+  const double half = 0.01 * std::sqrt(0.5);
+  const Vec3 eye = {8000, 2999, 1000};
+  const Hit hit = ball.hit(eye + Vec3{half, 0, 0}, Vec3{8000, 3000, 1000} + Vec3{half, 0, 0});
+  EXPECT_EQ(hit.id, 2u);
+  EXPECT_NEAR(hit.distance, 1 - half, 1e-7);
+  EXPECT_NEAR(hit.normal.x, std::sqrt(0.5), 1e-6);
+  EXPECT_NEAR(hit.normal.y, -std::sqrt(0.5), 1e-6);
+  // A disc, a millionth of its width thick, met aslant where its top leans by 1 in 800,000.
+  Traced disc("scale([1, 1, 1e-6]) sphere(1);");
+  const Hit top = disc.hit({0.6, -2, 1}, {0.6, 0, 0});
+  EXPECT_NEAR(top.distance, std::sqrt(5.0), 5e-6);
+  EXPECT_NEAR(top.normal.x, 0.75e-6, 1e-10);
+}
+
 TEST(Cpu, FlushPocketsHaveNoLid) {
   Traced model("difference(){cube(10); translate([2,2,5]) cube([6,6,5]);}");
   expect_hit(model.hit({5, 5, 20}, {5, 5, 0}), 15, 2, {0, 0, 1});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 // This file is compiled once for every instruction set; see foreach_target.h.
 #undef HWY_TARGET_INCLUDE
@@ -71,12 +72,28 @@ HWY_INLINE Bool mask_of(uint32_t lanes) {
 constexpr size_t kMaxLanes = 8;
 constexpr uint32_t kMaxDepth = 192;  ///< three axes, each halved at most 64 times
 
+/// Curved surfaces whose radius is below this share of the region's longest edge get the arithmetic
+/// for small ones. Without it a surface is blurred by its share's inverse times what rounding does
+/// to the region.
+constexpr double kSmall = 1.0 / 64;
+
+/// An eye this close to a surface stands on it, this close to the eye a ray still does, and this
+/// far ahead it looks where it goes (a tip has no slope); shares of the region's longest edge,
+/// above what rounding does.
+constexpr double kOnSurface = 2e-14;
+constexpr double kAtEye = 1e-13;
+constexpr double kAhead = 1e-9;
+
 /// One packet of rays on its way through the cells. A lane takes part in a cell if its interval is
 /// not empty there (t0 <= t1), so that intervals alone say which lanes are where.
 class Packet {
  public:
   Packet(const Scene& scene, const CellTree& tree, const Camera& camera, LaneScratch& scratch)
-      : scene_(scene), tree_(tree), camera_(camera), scratch_(scratch) {}
+      : scene_(scene),
+        tree_(tree),
+        camera_(camera),
+        scratch_(scratch),
+        edge_(max_component(scene.region.size())) {}
 
   /// At most as many positions as there are lanes.
   void trace(std::span<const PixelPosition> positions, std::span<Hit> hits) {
@@ -88,6 +105,7 @@ class Packet {
     Real t0 = set(start_t0_), t1 = set(kInfinity);
     t0 = hn::Sub(t0, shift_);
     const Real start = t0;
+    at_eye_ = start + set(kAtEye * edge_);
     for (int axis = 0; axis < 3; ++axis) clip(axis, t0, t1);
     const uint32_t all = (1u << count_) - 1;
     const uint32_t meets = bits(hn::Le(t0, t1)) & all;
@@ -226,38 +244,59 @@ class Packet {
     }
   }
 
-  /// f of one half-space along all rays: x t^2 + 2 y t + z.
-  L::Vec3 along_rays(const HalfSpace& h) const {
+  /// f of one half-space along all rays.
+  L::AlongRay along_rays(const HalfSpace& h) const {
     const L::Vec3 o = {origin_.x - set(h.center.x), origin_.y - set(h.center.y),
                        origin_.z - set(h.center.z)};
-    switch (h.kind) {
-      case SurfaceKind::kPlane: {
-        const L::Vec3 b = set(h.f.b);
-        return {set(0), L::dot3(b, direction_), set(2) * L::dot3(b, o)};
-      }
-      case SurfaceKind::kSphere:
-        return L::sphere_along_ray(set(h.f.diag.x), set(h.f.c), o, direction_);
-      default:
-        return L::quadric_along_ray({set(h.f.diag), set(h.f.off), set(h.f.b), set(h.f.c)}, o,
-                                    direction_);
-    }
+    if (h.is_plane()) return L::plane_along_ray(set(h.f.b), o, direction_);
+    // As f is scaled, 2 |c| is the radius, or the least one.
+    const bool small = 2 * std::fabs(h.f.c) < kSmall * edge_;
+    if (h.kind == SurfaceKind::kSphere && !small)
+      return L::sphere_along_ray(set(h.f.diag.x), set(h.f.c), o, direction_);
+    const L::Quadric f = {set(h.f.diag), set(h.f.off), set(h.f.b), set(h.f.c)};
+    return small ? L::small_quadric_along_ray(f, o, direction_)
+                 : L::quadric_along_ray(f, o, direction_);
   }
 
   /// Where f changes its sign between t0 and t1. Neighbouring cells evaluate the same numbers at
   /// the t they share, so each change of sign is found in one of them, and in one only.
-  static LaneSigns signs_between(L::Vec3 f, Real t0, Real t1) {
-    const Real f0 = L::quadratic_value(f.x, f.y, f.z, t0);
-    const Real f1 = L::quadratic_value(f.x, f.y, f.z, t1);
-    const Bool inside0 = f0 <= set(0), inside1 = f1 <= set(0);
+  LaneSigns signs_between(L::AlongRay f, Real t0, Real t1) const {
+    LaneEnd start = end_at(f, t0), end = end_at(f, t1);
+    if (!hn::AllFalse(D(), hn::Le(t0, at_eye_))) {
+      start = end_at_eye(f, t0, start);
+      end = end_at_eye(f, t1, end);
+    }
     // In and out again, or out and in: only if f turns back between, and goes beyond zero there.
-    const Real bend = L::select(inside0, set(0) - f.x, f.x);
-    const Bool turns = hn::Xor(f.x * t0 + f.y < set(0), f.x * t1 + f.y < set(0));
-    const Bool bends = hn::And(hn::And(bend > set(0), turns), f.y * f.y > f.x * f.z);
+    const Real bend = L::select(start.inside, set(0) - f.a, f.a);
+    const Bool turns = hn::Xor(start.falls, end.falls);
+    const Bool bends = hn::And(hn::And(bend > set(0), turns), f.h * f.h > f.a * f.k);
     LaneSigns signs;
-    signs.inside = bits(inside0);
-    signs.changes = signs.inside ^ bits(inside1);
+    signs.inside = bits(start.inside);
+    signs.changes = signs.inside ^ bits(end.inside);
     signs.bends = bits(bends) & ~signs.changes;
     return signs;
+  }
+
+  /// A half-space at one end of the way through a cell.
+  struct LaneEnd {
+    Real value;
+    Bool inside, falls;
+  };
+  static LaneEnd end_at(L::AlongRay f, Real t) {
+    const Real value = L::along_value(f, t);
+    return {value, value <= set(0), f.a * (t - f.about) + f.h < set(0)};
+  }
+
+  /// Who stands on a surface has passed it: there the side is that of the way just ahead, and not
+  /// rounding's. Elsewhere nothing changes.
+  LaneEnd end_at_eye(L::AlongRay f, Real t, LaneEnd end) const {
+    const Bool on_surface =
+        hn::And(hn::Le(t, at_eye_), hn::Abs(end.value) <= set(kOnSurface * edge_));
+    const Bool falls = f.a * (t - f.about + set(kAhead * edge_)) + f.h < set(0);
+    const auto choose = [&](Bool there, Bool else_there) {
+      return hn::Or(hn::And(on_surface, there), hn::AndNot(on_surface, else_there));
+    };
+    return {end.value, choose(falls, end.inside), choose(falls, end.falls)};
   }
 
   void solve(CellKind kind, const Leaf& leaf, uint32_t lanes, Real t0, Real t1) {
@@ -265,7 +304,7 @@ class Packet {
     const std::span<const LeafLiteral> literals(&tree_.literals[leaf.first_literal],
                                                 leaf.literal_count);
     scratch_.stats.leaves += uint32_t(std::popcount(lanes));
-    scratch_.along.resize(std::max(scratch_.along.size(), literals.size() * 3 * kLanes));
+    scratch_.along.resize(std::max(scratch_.along.size(), literals.size() * 4 * kLanes));
     scratch_.signs.resize(std::max(scratch_.signs.size(), literals.size()));
     const bool conjunction = kind == CellKind::kConjunction,
                disjunction = kind == CellKind::kDisjunction;
@@ -274,7 +313,7 @@ class Packet {
     const uint32_t opposite = known_ & (conjunction ? solid_ : ~solid_);
     uint32_t open = lanes, quiet = lanes;
     for (uint32_t i = 0; i < literals.size(); ++i) {
-      const L::Vec3 f = along_rays(scene_.half_spaces[literals[i].literal >> 1]);
+      const L::AlongRay f = along_rays(scene_.half_spaces[literals[i].literal >> 1]);
       const LaneSigns signs = signs_between(f, t0, t1);
       scratch_.stats.literals += uint32_t(std::popcount(open));
       const uint32_t still = ~(signs.changes | signs.bends);
@@ -284,10 +323,11 @@ class Packet {
       if (open == 0) break;
       quiet &= still;
       scratch_.signs[i] = signs;
-      double* along = &scratch_.along[size_t(i) * 3 * kLanes];
-      hn::StoreU(f.x, D(), along);
-      hn::StoreU(f.y, D(), along + kLanes);
-      hn::StoreU(f.z, D(), along + 2 * kLanes);
+      double* along = &scratch_.along[size_t(i) * 4 * kLanes];
+      hn::StoreU(f.a, D(), along);
+      hn::StoreU(f.h, D(), along + kLanes);
+      hn::StoreU(f.k, D(), along + 2 * kLanes);
+      hn::StoreU(f.about, D(), along + 3 * kLanes);
     }
     const uint32_t settled = lanes & ~open;
     known_ |= settled;
@@ -314,9 +354,9 @@ class Packet {
     constexpr size_t kLanes = hn::MaxLanes(D());
     scratch_.on_ray.resize(leaf.literal_count);
     for (uint32_t i = 0; i < leaf.literal_count; ++i) {
-      const double* along = &scratch_.along[size_t(i) * 3 * kLanes + size_t(lane)];
+      const double* along = &scratch_.along[size_t(i) * 4 * kLanes + size_t(lane)];
       const LaneSigns& signs = scratch_.signs[i];
-      scratch_.on_ray[i] = {{along[0], along[kLanes], along[2 * kLanes]},
+      scratch_.on_ray[i] = {{along[0], along[kLanes], along[2 * kLanes], along[3 * kLanes]},
                             bool(signs.inside >> lane & 1),
                             bool(signs.changes >> lane & 1),
                             bool(signs.bends >> lane & 1)};
@@ -351,10 +391,12 @@ class Packet {
   const CellTree& tree_;
   const Camera& camera_;
   LaneScratch& scratch_;
+  double edge_;  ///< the longest of the region
 
   size_t count_ = 0;
   std::span<Hit> hits_;
   L::Vec3 origin_, direction_;  ///< local; the origin is the point nearest to the region's middle
+  Real at_eye_;                 ///< up to this t a ray is where the eye is
   Real shift_;                  ///< t at the camera's start minus t here
   Real inverse_[3];             ///< of the direction
   double start_t0_ = 0;

@@ -15,7 +15,7 @@ struct LaneScratch {
   LaneScratch(const Scene& scene, const CellTree& cells) : solver(scene, cells) {}
 
   LeafSolver solver;
-  std::vector<double> along;         ///< per literal of a leaf: three vectors, f along the rays
+  std::vector<double> along;         ///< per literal of a leaf: four vectors, f along the rays
   std::vector<LaneSigns> signs;      ///< per literal
   std::vector<LiteralOnRay> on_ray;  ///< per literal, of one ray
   TraceStats stats;

@@ -35,7 +35,7 @@ void LeafSolver::list_crossings(std::span<const LiteralOnRay> on_ray, double t0,
     is_inside_[i] = l.inside;
     const auto root = [&](bool rising) {
       // The signs say that it is in (t0, t1]; rounding may not.
-      return std::min(std::max(K::quadratic_root(l.along.x, l.along.y, l.along.z, rising), t0), t1);
+      return std::min(std::max(K::along_root(l.along, rising), t0), t1);
     };
     // f rises where the ray leaves the half-space.
     if (l.changes || l.bends) add_crossing(root(l.inside), i);
@@ -116,8 +116,7 @@ bool LeafSolver::first_change(CellKind kind, const Leaf& leaf, std::span<const L
     // The literal whose surface is nearest brought us here.
     uint32_t nearest = 0;
     const auto distance = [&](uint32_t i) {
-      const Vec3& f = on_ray[i].along;
-      return std::fabs(K::quadratic_value(f.x, f.y, f.z, t0));
+      return std::fabs(K::along_value(on_ray[i].along, t0));
     };
     for (uint32_t i = 1; i < on_ray.size(); ++i)
       if (distance(i) < distance(nearest)) nearest = i;

@@ -32,7 +32,7 @@ struct LaneSigns {
 
 /// The same for one ray.
 struct LiteralOnRay {
-  Vec3 along;  ///< f along the ray: x t^2 + 2 y t + z
+  Kernels<double>::AlongRay along;
   bool inside, changes, bends;
 };
 

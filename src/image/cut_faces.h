@@ -1,0 +1,36 @@
+// Which surfaces OpenSCAD paints as cut where faces of material and of cutters coincide.
+//
+// Its evaluated solids are sets of points: a primitive holds its surface, and what is subtracted
+// takes its surface along. A face is painted as material if the solid holds it, and as cut if not.
+// Away from coincident faces that is the sign with which the primitive stands in the formula; where
+// a face of material lies on a face of a cutter it is not, whoever owns the point.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lower/scene.h"
+
+namespace whittle {
+
+class CutFaces {
+ public:
+  /// `scene` must outlive this.
+  explicit CutFaces(const Scene& scene);
+
+  /// Whether any face of the primitive lies on one of the other sign. False: the solid holds all
+  /// its faces or none of them, and is_cut need not be asked.
+  bool is_contested(uint32_t id) const { return id < unit_of_.size() && unit_of_[id] != kNoUnit; }
+  /// Whether the surface of that primitive at a world point is cut. The point may be off the
+  /// surface by rounding. Linear in the formula. Precondition: is_contested(id).
+  bool is_cut(uint32_t id, Vec3 point) const;
+
+ private:
+  static constexpr uint32_t kNoUnit = UINT32_MAX;
+  uint32_t half_space_at(uint32_t unit, Vec3 p) const;
+
+  const Scene& scene_;
+  std::vector<uint32_t> unit_of_;  ///< by id: its unit if it is contested
+};
+
+}  // namespace whittle
