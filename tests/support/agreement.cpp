@@ -61,14 +61,15 @@ bool is_certain(const Looks& looks, Vec3 eye) {
   return true;
 }
 
-/// Does the hit's own ray only touch the surface of that answer, where other looks miss it? Whether
-/// it meets it is then a matter of rounding, and where it does the other looks cannot tell.
+/// Does the hit's own ray only touch surfaces that turn away beside that answer? Which of them it
+/// meets there, or none, is a matter of rounding, and where it does the other looks cannot tell.
 bool touches(const Hit& hit, const Looks& looks, const Hit& answer, const Ray& answer_ray,
              double touch) {
   const bool some_miss = std::any_of(looks.hits.begin(), looks.hits.end(),
                                      [&](const Hit& other) { return other.id != answer.id; });
   const double to_silhouette = std::fabs(dot(to_double(answer.normal), answer_ray.direction));
-  return some_miss && std::fabs(dot(to_double(hit.normal), looks.rays[0].direction)) <= touch &&
+  return some_miss && hit.hit() && answer.hit() &&
+         std::fabs(dot(to_double(hit.normal), looks.rays[0].direction)) <= touch &&
          normal_difference(hit.normal, answer.normal) <= kNormalAgreement + 1.5 * to_silhouette;
 }
 
@@ -78,12 +79,12 @@ bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double across,
              const AcceptsId& accepts) {
   const Hit& answer = looks.hits[size_t(i)];
   const Ray& ray = looks.rays[size_t(i)];
+  // A surface that may be a little off is met a little beyond its limb.
+  if (touches(hit, looks, answer, ray, across > 0 ? kLimb : kNormalAgreement)) return true;
   if (hit.hit() != answer.hit() || !accepts(ray, answer, hit.id)) return false;
   if (!hit.hit()) return !std::isfinite(hit.distance);
 
   if (std::fabs(length(to_double(hit.normal)) - 1) > kNormalAgreement) return false;
-  // A surface that may be a little off is met a little beyond its limb.
-  if (touches(hit, looks, answer, ray, across > 0 ? kLimb : kNormalAgreement)) return true;
   double normal_spread = 0;
   for (const Hit& other : looks.hits)
     if (other.id == answer.id)

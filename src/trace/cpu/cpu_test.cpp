@@ -9,6 +9,7 @@
 #include <string>
 
 #include "lower/lower.h"
+#include "model/facets.h"
 #include "subdivide/subdivide.h"
 #include "support/agreement.h"
 #include "support/random_tree.h"
@@ -60,6 +61,38 @@ TEST(Cpu, TheEyeMayBeAnywhere) {
   expect_hit(model.hit({4, 0, 0}, {0, 0, 0}), 1, 2, {-1, 0, 0});
 }
 
+TEST(Cpu, APlaneThatOnlyHappensToPassThereOwnsNothing) {
+  // The wedge's slope goes on beyond the wedge and meets the cube's top just where the ray does.
+  const char* const text =
+      "polyhedron(points = [[0,6,0],[3,6,0],[0,6,3],[0,8,0],[3,8,0],[0,8,3]],"
+      " faces = [[0,2,1],[3,4,5],[0,1,4,3],[1,2,5,4],[2,0,3,5]]);"
+      "translate([0,0,-1]) cube([4,4,2]);";
+  SubdivideSettings all_in_one_leaf;
+  all_in_one_leaf.leaf_size = 16;
+  Traced model(text, all_in_one_leaf);
+  for (const double y : {1.0, 2.0, 3.5})
+    expect_hit(model.hit({2, y, 10}, {2, y, 0}), 9, 2, {0, 0, 1});
+}
+
+TEST(Cpu, WhereAWallTouchesAnotherTheEarlierOwns) {
+  // A round bar inside a square one, turned by an odd angle, so that rounding differs along the
+  // lines where they touch.
+  const char* const turn = "rotate([30, 0, 17])";
+  const std::string cube = "translate([0, -2, -2]) cube([40, 4, 4]);",
+                    bar = "rotate([0, 90, 0]) cylinder(h = 40, r = 2);";
+  const double c = cos_degrees(17), s = sin_degrees(17), cx = cos_degrees(30), sx = 0.5;
+  const Affine map = {.row = {{c, -s * cx, s * sx}, {s, c * cx, -c * sx}, {0, sx, cx}},
+                      .translation = {}};
+  for (const bool bar_first : {false, true}) {
+    Traced model(std::string(turn) + "{" + (bar_first ? bar + cube : cube + bar) + "}");
+    for (int i = 1; i < 400; ++i) {
+      const Vec3 on = map.point({i / 10.0, 0, 2});
+      const Vec3 up = map.vector({0, 0, 1});
+      EXPECT_EQ(model.hit(on + up * 8.0, on).id, 1u) << i;
+    }
+  }
+}
+
 TEST(Cpu, AnEyeOnASurfaceHasPassedIt) {
   Traced model("cube(10, center = true); translate([0, 0, 9]) sphere(2);");
   // On a face: away from the body there is nothing, into it there is its far side.
@@ -95,19 +128,6 @@ TEST(Cpu, SmallAndFlatBodiesAreExactInLargeModels) {
   const Hit top = disc.hit({0.6, -2, 1}, {0.6, 0, 0});
   EXPECT_NEAR(top.distance, std::sqrt(5.0), 5e-6);
   EXPECT_NEAR(top.normal.x, 0.75e-6, 1e-10);
-}
-
-TEST(Cpu, APlaneThatOnlyHappensToPassThereOwnsNothing) {
-  // The wedge's slope goes on beyond the wedge and meets the cube's top just where the ray does.
-  const char* const text =
-      "polyhedron(points = [[0,6,0],[3,6,0],[0,6,3],[0,8,0],[3,8,0],[0,8,3]],"
-      " faces = [[0,2,1],[3,4,5],[0,1,4,3],[1,2,5,4],[2,0,3,5]]);"
-      "translate([0,0,-1]) cube([4,4,2]);";
-  SubdivideSettings all_in_one_leaf;
-  all_in_one_leaf.leaf_size = 16;
-  Traced model(text, all_in_one_leaf);
-  for (const double y : {1.0, 2.0, 3.5})
-    expect_hit(model.hit({2, y, 10}, {2, y, 0}), 9, 2, {0, 0, 1});
 }
 
 TEST(Cpu, FlushPocketsHaveNoLid) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lower/evaluate.h"
+#include "model/instances.h"
 
 namespace whittle {
 namespace {
@@ -12,6 +13,11 @@ namespace {
 using K = Kernels<double>;
 
 }  // namespace
+
+LeafSolver::LeafSolver(const Scene& scene, const CellTree& tree)
+    : scene_(scene),
+      tree_(tree),
+      together_(scene.region.is_empty() ? 0 : kTogether * max_component(scene.region.size())) {}
 
 void LeafSolver::add_crossing(double t, uint32_t literal) {
   // Insertion keeps the list sorted; it is short, and equal times stay in the literals' order.
@@ -122,11 +128,12 @@ bool LeafSolver::first_change(CellKind kind, const Leaf& leaf, std::span<const L
   for (size_t i = 0; i < crossings_.size();) {
     const size_t first = i;
     const double t = crossings_[i].t;
-    for (; i < crossings_.size() && crossings_[i].t == t; ++i)
+    for (; i < crossings_.size() && crossings_[i].t <= t + together_; ++i)
       flip(kind, literals, crossings_[i].literal);
     const bool after = value(kind, leaf, literals);
     if (after == solid) continue;
     const std::span<Crossing> group(&crossings_[first], i - first);
+    std::ranges::sort(group, {}, &Crossing::literal);  // the order of the file
     std::swap(group[0], group[decisive(kind, leaf, literals, group)]);
     change = describe(leaf, literals, ray, t, group, after);
     return true;
@@ -141,7 +148,7 @@ Change LeafSolver::describe(const Leaf& leaf, std::span<const LeafLiteral> liter
   const Vec3 point = ray.origin + ray.direction * t;
   uint32_t literal = group[0].literal;
   uint32_t id = literals[literal].owner;
-  if (id == kSharedOwner) {
+  if (id == kSharedOwner || (group.size() > 1 && leaf.token_count > 0)) {
     const Face& face = owner(leaf, literals, point, group);
     id = scene_.units[face.unit].id;
     for (const Crossing& crossing : group)

@@ -42,11 +42,12 @@ inline bool literal_value(const LeafLiteral& literal, bool is_inside) {
 
 class LeafSolver {
  public:
-  LeafSolver(const Scene& scene, const CellTree& tree) : scene_(scene), tree_(tree) {}
+  LeafSolver(const Scene& scene, const CellTree& tree);
 
   /// Finds the first t in (t0, t1] at which the solid in this leaf changes from what `inside` says,
   /// or t0 if it differs there already. Otherwise false, and `inside` tells the value at t1.
-  /// Unknown becomes known at t0 and is no change. Crossings at equal t happen together. `on_ray`
+  /// Unknown becomes known at t0 and is no change. Crossings at equal t, or nearly
+  /// so (kTogether), happen together. `on_ray`
   /// has an entry for every literal of the leaf.
   bool first_change(CellKind kind, const Leaf& leaf, std::span<const LiteralOnRay> on_ray,
                     const LocalRay& ray, double t0, double t1, Inside& inside, Change& change);
@@ -81,6 +82,7 @@ class LeafSolver {
 
   const Scene& scene_;
   const CellTree& tree_;
+  const double together_;            ///< crossings closer than this happen together
   std::vector<uint8_t> is_inside_;   ///< by literal: inside the half-space itself, at this point
   std::vector<Crossing> crossings_;  ///< in (t0, t1], sorted
   uint64_t state_ = 0;               ///< kTable: the bits of is_inside_
