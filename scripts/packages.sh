@@ -20,7 +20,8 @@ test_packages=(
   librapidcheck-dev   # property tests
   libbenchmark-dev    # kernel benchmarks
   povray              # an independent renderer to agree with
-  openscad            # flattens .scad files
+  openscad            # flattens .scad files; a picture to agree with
+  xvfb                # a display for it
 )
 
 lint_packages=(
