@@ -40,6 +40,15 @@ std::optional<Vec3> to_vec3(const std::optional<Point>& p, const char* name) {
   return to_vec3(*p);
 }
 
+ReadOptions reading_of(const LoadOptions& o) {
+  return {.curves = value_of(choose(curves_choices(), "kind of curves", o.curves)),
+          .limits = {.bytes = o.most_bytes,
+                     .depth = o.most_depth,
+                     .nodes = o.most_nodes,
+                     .values = o.most_values,
+                     .facets = o.most_facets}};
+}
+
 ViewOptions view_of(const RenderOptions& o) {
   if (o.distance && !(*o.distance >= 0 && std::isfinite(*o.distance))) {
     refuse("distance must be a finite number that is not negative");
@@ -84,17 +93,13 @@ struct Solid::State {
 Solid::Solid(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
 Solid Solid::load(const std::string& path, const LoadOptions& options) {
-  ReadOptions reading;
-  reading.curves = value_of(choose(curves_choices(), "kind of curves", options.curves));
-  State state{value_of(read_file(path, reading)), {}};
+  State state{value_of(read_file(path, reading_of(options))), {}};
   state.bounds = whittle::bounds(state.read.model);
   return Solid(std::make_shared<const State>(std::move(state)));
 }
 
 Solid Solid::parse(std::string_view text, const std::string& name, const LoadOptions& options) {
-  ReadOptions reading;
-  reading.curves = value_of(choose(curves_choices(), "kind of curves", options.curves));
-  State state{value_of(read_csg(text, name, reading)), {}};
+  State state{value_of(read_csg(text, name, reading_of(options))), {}};
   state.bounds = whittle::bounds(state.read.model);
   return Solid(std::make_shared<const State>(std::move(state)));
 }
@@ -126,11 +131,15 @@ Rendering Solid::render(const RenderOptions& options) const {
   if (options.threads < 0 || options.threads > kMostThreads) {
     refuse("threads must be 0 to " + std::to_string(kMostThreads));
   }
+  if (options.most_cells < 1 || options.most_cells > kMostCells) {
+    refuse("most_cells must be 1 to " + std::to_string(kMostCells));
+  }
   const ShadeSettings shading = shading_of(options);
   const Camera camera = camera_for(state_->read.model, view_of(options));
   RendererSettings settings;
   settings.backend = value_of(choose(backend_choices(), "backend", options.backend));
   settings.threads = options.threads;
+  settings.subdivide.max_cells = options.most_cells;
   Renderer renderer = value_of(Renderer::make(state_->read.model, settings));
   renderer.prepare(camera);
   const Frame frame = renderer.trace(camera);
