@@ -19,13 +19,8 @@ constexpr uint32_t kExpandAll = 64;
 constexpr size_t kFrontier = 512;
 
 /// The budget, max_cells, counts a cell as one, and so many literals or tokens that are kept as one
-/// more; and looking at so many operands costs one, so that it bounds the time as well.
-constexpr size_t kKeptPerCell = 4, kClassifiedPerCell = 64;
-
-/// The tree is not split in breadth while the formulas of all open cells together are this much
-/// longer than the whole one (or than the constant, if that is more): where nothing gets simpler,
-/// they would only fill the memory.
-constexpr size_t kMostCopies = 8, kMostOpenTokens = size_t(1) << 20;
+/// more. As they were looked at on the way, that bounds the time as well.
+constexpr size_t kKeptPerCell = 4;
 
 /// A cell whose formula has not become shorter, in itself and in its sibling, over this many splits
 /// in a row is a corner or an edge where many surfaces meet: no split will part them.
@@ -166,8 +161,7 @@ class Builder {
   /// Of the budget, if one more cell is split.
   size_t spent() const {
     const size_t kept = tree.literals.size() + tree.tokens.size() + pending_tokens_;
-    return std::max(tree.cells.size() + 2 + kept / kKeptPerCell,
-                    size_t(tree.stats.classified / kClassifiedPerCell));
+    return tree.cells.size() + 2 + kept / kKeptPerCell;
   }
 
   /// Whether a formula, however long, has no more half-spaces than a truth table can hold: many
@@ -264,13 +258,14 @@ struct Frontier {
   uint32_t slot;
 };
 
-/// Whether the tree is split in breadth by one more level.
-bool widens(const std::vector<Frontier>& frontier, const Scene& scene, size_t budget_left) {
+/// Whether the tree is split in breadth by one more level. Where nothing gets simpler, formulas
+/// would only fill the memory: they may take half of what is left.
+bool widens(const std::vector<Frontier>& frontier, size_t budget_left) {
   if (frontier.empty() || frontier.size() >= kFrontier || 2 * frontier.size() > budget_left)
     return false;
   size_t tokens = 0;
   for (const Frontier& open : frontier) tokens += open.cell.formula.size();
-  return tokens <= std::max(kMostCopies * scene.formula.size(), kMostOpenTokens);
+  return tokens / kKeptPerCell <= budget_left / 2;
 }
 
 /// What each open cell gets of the budget: half of it in equal parts, half by how much is in them.
@@ -312,7 +307,7 @@ CellTree subdivide(const Scene& scene, const SubdivideSettings& settings) {
   const auto budget_left = [&] {
     return settings.max_cells - std::min(settings.max_cells, top.tree.cells.size());
   };
-  while (widens(frontier, scene, budget_left())) {
+  while (widens(frontier, budget_left())) {
     std::vector<Frontier> next;
     std::vector<CellTree> parts(frontier.size());
     std::vector<Builder::Children> children(frontier.size());

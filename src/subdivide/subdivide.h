@@ -39,8 +39,8 @@ struct SubdivideSettings {
   /// Drop the leaves that `is_small` stopped, as the paper did.
   bool ignore_small = false;
   /// Cells that there may be; then none is split any more, and leaves have longer formulas
-  /// instead. The picture is the same. A leaf of many literals counts as several cells, and so does
-  /// a cell that takes long to make. At most kMostCells (docs/decisions/0010-limits.md).
+  /// instead. The picture is the same. A leaf of many literals counts as several cells, and
+  /// what is open at the end comes on top. At most kMostCells (docs/decisions/0010-limits.md).
   size_t max_cells = 20'000'000;
   int threads = 0;  ///< 0: all
 };
