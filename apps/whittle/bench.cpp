@@ -98,7 +98,7 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   for (int i = 0; i < a.repeat; ++i) {
     read.reset();
     const Stopwatch watch;
-    Result<Read> again = read_file(file, a.loading.options);
+    Result<Read> again = read_file(file, read_options(a.loading));
     parse.push_back(watch.milliseconds());
     if (!again) return again.error();
     read = *std::move(again);
@@ -177,7 +177,7 @@ int measure_apart(const std::string& file, const BenchArguments& a, Json& json) 
       code = measured ? print(measured->dump(-1, ' ', false, Json::error_handler_t::replace))
                       : report(measured.error());
     } catch (const std::bad_alloc&) {
-      code = report({ErrorKind::kMachine, fmt::format("{}: out of memory", file)});
+      code = report({ErrorKind::kMachine, fmt::format("{}: {}", file, out_of_memory())});
     }
     ::_exit(code);
   }
@@ -240,7 +240,7 @@ int bench_command(Arguments arguments) {
   if (std::ranges::find(a.files, "-") != a.files.end()) {
     return report({ErrorKind::kUsage, "standard input cannot be read again; bench wants files"});
   }
-  apply(a.subdivision, a.renderer);
+  apply(a.subdivision, a.loading.limits, a.renderer);
 
   Json all = Json::array();
   for (const std::string& file : a.files) {

@@ -72,12 +72,17 @@ void add_loading_options(CLI::App& app, Loading& loading) {
   OptionGroup group(app, "Reading");
   group.add_choice("--curves", curves_choices(), "kind of curves",
                    "{}; auto: facets where $fn asks for them",
-                   [&](Curves curves) { loading.options.curves = curves; });
+                   [&](Curves curves) { loading.curves = curves; });
   group.add_choice("--matrices", matrices_choices(), "kind of matrices",
                    "{}; polished: rotations printed\nwith six digits are rotations again",
-                   [&](bool polish) { loading.options.polish = polish; });
+                   [&](bool polish) { loading.polish = polish; });
   group.add_flag("--strict", loading.strict, "fail if anything in FILE is not supported");
   group.add_flag("-q,--quiet", loading.quiet, "say nothing but errors");
+  add_limit_option(app, loading.limits);
+}
+
+ReadOptions read_options(const Loading& loading) {
+  return {.curves = loading.curves, .polish = loading.polish, .limits = loading.limits.reading};
 }
 
 Status say_warnings(const Read& read, const Loading& loading) {
@@ -94,7 +99,7 @@ Status say_warnings(const Read& read, const Loading& loading) {
 Result<Read> load(const std::string& file, const Loading& loading) {
   const auto read_with_progress = [&] {
     const ProgressLine progress(!loading.quiet, "reading");
-    return read_file(file, loading.options);
+    return read_file(file, read_options(loading));
   };
   Result<Read> read = read_with_progress();
   if (!read) return read;
@@ -201,8 +206,10 @@ void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments) {
                  "--pixel-threshold 1, --small-cells ignore");
 }
 
-void apply(const SubdivisionArguments& arguments, RendererSettings& settings) {
+void apply(const SubdivisionArguments& arguments, const Limits& limits,
+           RendererSettings& settings) {
   SubdivideSettings& s = settings.subdivide;
+  s.max_cells = limits.cells;
   if (arguments.paper) {
     s.leaf_size = 2;
     s.leaf = LeafRule::kPrimitives;

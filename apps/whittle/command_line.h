@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "image/shade.h"
 #include "io/read.h"
+#include "limits.h"
 #include "trace/view.h"
 #include "whittle/renderer.h"
 
@@ -31,11 +32,14 @@ void set_help(CLI::App& app, const CommandHelp& help);
 std::optional<int> parse(CLI::App& app, Arguments arguments);
 
 struct Loading {
-  ReadOptions options;
+  Curves curves = Curves::kAuto;
+  bool polish = true;
+  Limits limits;
   bool strict = false;
   bool quiet = false;
 };
 void add_loading_options(CLI::App& app, Loading& loading);
+ReadOptions read_options(const Loading& loading);
 /// Says the warnings; or with `strict` and anything that is not supported, the error for that.
 Status say_warnings(const Read& read, const Loading& loading);
 /// Reads a file, shows the progress, and says its warnings.
@@ -68,6 +72,6 @@ struct SubdivisionArguments {
 };
 void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments);
 /// The paper's rules if asked for, and then what was asked for one by one.
-void apply(const SubdivisionArguments& arguments, RendererSettings& settings);
+void apply(const SubdivisionArguments& arguments, const Limits& limits, RendererSettings& settings);
 
 }  // namespace whittle

@@ -1,4 +1,6 @@
 // whittle: the program. The first argument names a command; without one, it renders.
+#include <unistd.h>
+
 #include <cstring>
 #include <exception>
 #include <new>
@@ -7,6 +9,8 @@
 
 #include "commands.h"
 #include "console.h"
+#include "io/pending_files.h"
+#include "limits.h"
 #include "signals.h"
 
 namespace whittle {
@@ -35,13 +39,26 @@ int run_guarded(Arguments arguments) {
   try {
     return run(arguments);
   } catch (const std::bad_alloc&) {
-    return report({ErrorKind::kMachine, "out of memory"});
+    return report({ErrorKind::kMachine, out_of_memory()});
   } catch (const std::length_error&) {
     // What std::vector throws for a size beyond any memory.
-    return report({ErrorKind::kMachine, "out of memory"});
+    return report({ErrorKind::kMachine, out_of_memory()});
   } catch (const std::exception& e) {
     return report({ErrorKind::kMachine, e.what()});
   }
+}
+
+/// For what no one can catch: a thread that oneTBB cannot start ends the program from within it.
+[[noreturn]] void end_clearly() {
+  int code = int(ErrorKind::kMachine);
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::exception& e) {
+    code = report({ErrorKind::kMachine, e.what()});
+  } catch (...) {
+  }
+  remove_pending_files();
+  ::_exit(code);
 }
 
 }  // namespace
@@ -49,6 +66,8 @@ int run_guarded(Arguments arguments) {
 
 int main(int argc, char** argv) {
   whittle::prepare_for_interruption();
+  std::set_terminate(whittle::end_clearly);
+  whittle::limit_memory(whittle::physical_memory());
   const std::vector<const char*> arguments(argv + (argc > 0), argv + argc);
   return whittle::run_guarded(arguments);
 }

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -44,6 +45,13 @@ using Point = std::array<double, 3>;
 struct LoadOptions {
   std::string curves = "auto";        ///< "auto", "facets" or "smooth"
   std::string matrices = "polished";  ///< or "as-written": rotations keep the error of six digits
+
+  // What is too much: a file that passes one of these limits is refused.
+  std::size_t most_bytes = 500'000'000;  ///< of text, less than 4 GiB
+  std::size_t most_depth = 1'000'000;    ///< statements inside statements
+  std::size_t most_nodes = 20'000'000;   ///< statements
+  std::size_t most_values = 10'000'000;  ///< numbers and other values in one statement
+  std::size_t most_facets = 5'000'000;   ///< flat faces, of all bodies together
 };
 
 struct RenderOptions {
@@ -67,6 +75,9 @@ struct RenderOptions {
 
   std::string backend = "auto";  ///< "auto", "cpu" or "oracle"
   int threads = 0;               ///< 0: all. The result does not depend on it.
+  /// Cells that space may be cut into, up to 2^28; fewer take less memory, and more time for every
+  /// ray. The result does not depend on it.
+  std::size_t most_cells = 20'000'000;
 };
 
 /// A picture and its facts; width * height entries each, rows from the top, each from the left.

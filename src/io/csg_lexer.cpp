@@ -41,6 +41,23 @@ int hexadecimal_digit(char c) {
   return -1;
 }
 
+/// The bytes of the UTF-8 character at the start of the text; 0 if there is none, or if no terminal
+/// would show it.
+size_t utf8_size(std::string_view text) {
+  const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  const size_t size = first < 0x80 ? 1 : first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+  if (first > 0xf4 || size > text.size()) return 0;
+  for (size_t i = 1; i < size; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  }
+  // Of the second byte not everything is allowed: overlong forms, surrogates, beyond Unicode; and
+  // the control characters U+0080 to U+009F.
+  const unsigned char least = first == 0xc2 || first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
+  const unsigned char most = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
+  return size < 2 || (byte(1) >= least && byte(1) <= most) ? size : 0;
+}
+
 /// The word that starts at `from`: all that a name or a number may hold.
 std::string_view word_at(const char* from, const char* end) {
   const char* to = from;
@@ -187,6 +204,8 @@ std::string CsgLexer::describe_next() {
   if (next_ == end_) return "the end of the file";
   if (is_name_part(c)) return quote(word_at(next_, end_));
   if (c > ' ' && c < 0x7f) return fmt::format("'{}'", c);
+  const size_t size = utf8_size({next_, static_cast<size_t>(end_ - next_)});
+  if (size > 1) return fmt::format("'{}'", std::string_view(next_, size));
   return fmt::format("the byte 0x{:02x}", static_cast<unsigned char>(c));
 }
 

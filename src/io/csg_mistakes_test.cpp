@@ -30,6 +30,14 @@ TEST(CsgMistakes, AreNamedWithTheirPlaces) {
       {"translate([1,0,0]) x = 3;", "1:20: error: expected a statement, not an assignment"},
       {"%", "1:2: error: expected a statement before the end of the file"},
       {"\n(", "2:1: error: expected a statement before '('"},
+      {"x = 3 + 4;",
+       "1:7: error: expected ';' before '+' (values must be constants here; only a .scad file may "
+       "have expressions)"},
+      {"cube(\xe2\x80\x9c);", "1:6: error: expected a value before '\xe2\x80\x9c'"},
+      {"cube(\xc3\x28);", "1:6: error: expected a value before the byte 0xc3"},
+      {"cube(\xed\xa0\x80);", "1:6: error: expected a value before the byte 0xed"},
+      {"cube(\xc2\x85);", "1:6: error: expected a value before the byte 0xc2"},
+      {"cube(\xe2\x80", "1:6: error: expected a value before the byte 0xe2"},
       {"x = 3 cube();", "1:7: error: expected ';' before 'cube'"},
       {"cube(1); /* no end",
        "1:10: error: the comment is not closed: expected '*/' before the end "
@@ -53,9 +61,9 @@ TEST(CsgMistakes, AreNamedWithTheirPlaces) {
       {" polyhedron(points = [1], faces = []);",
        "1:2: error: polyhedron: points[0] is not a vector of three numbers"},
       {"polyhedron(points = [[0,0,0]], faces = [[0, 0, 0], [0, 1, 0]]);",
-       "1:1: error: polyhedron: faces[1] names a point that there is not"},
+       "1:1: error: polyhedron: faces[1] names point 1; there are 1 points, counted from 0"},
       {"polyhedron(points = [[0,0,0]], faces = [[0, 0, -1]]);",
-       "1:1: error: polyhedron: faces[0] names a point that there is not"},
+       "1:1: error: polyhedron: faces[0] names point -1; there are 1 points, counted from 0"},
       {"polyhedron(points = [[0,0,0]], faces = [0]);",
        "1:1: error: polyhedron: faces[0] is not a vector"},
   };
@@ -74,16 +82,28 @@ TEST(CsgMistakes, APolyhedronThatIsNotConvexIsRefused) {
 }
 
 TEST(CsgMistakes, LimitsAreNamed) {
-  EXPECT_EQ(read_bad("group(){group(){group(){}}}", {.max_depth = 2}),
-            "t.csg:1:24: error: statements are nested deeper than the limit of 2");
-  EXPECT_EQ(tree(read_good("group(){group(){cube();}}", {.max_depth = 2}).model), "U(c1)");
-  EXPECT_EQ(read_bad("cube();cube();cube();", {.max_nodes = 3}),
-            "t.csg:1:15: error: there are more statements than the limit of 3");
+  EXPECT_EQ(read_bad("group(){group(){group(){}}}", {.limits = {.depth = 2}}),
+            "t.csg:1:24: error: statements are nested deeper than the limit of 2; --limit "
+            "depth=N raises it");
+  EXPECT_EQ(tree(read_good("group(){group(){cube();}}", {.limits = {.depth = 2}}).model), "U(c1)");
+  EXPECT_EQ(read_bad("cube();cube();cube();", {.limits = {.nodes = 3}}),
+            "t.csg:1:15: error: there are more statements than the limit of 3; --limit "
+            "nodes=N raises it");
   EXPECT_EQ(
-      read_bad("cylinder($fn=8);\nsphere($fn=4);", {.max_facets = 15}),
+      read_bad("cube();\ncube([1, 2, [3]]);", {.limits = {.values = 4}}),
+      "t.csg:2:14: error: the statement has more values than the limit of 4; --limit values=N "
+      "raises it");
+  EXPECT_EQ(
+      read_bad("v = [1, 2, 3]; cube([v, v]);", {.limits = {.values = 8}}),
+      "t.csg:1:25: error: the statement has more values than the limit of 8; --limit values=N "
+      "raises it");
+  EXPECT_EQ(read_good("v = [1, 2, 3]; cube([v, v]);", {.limits = {.values = 9}}).warnings.size(),
+            1u);
+  EXPECT_EQ(
+      read_bad("cylinder($fn=8);\nsphere($fn=4);", {.limits = {.facets = 15}}),
       "t.csg:2:1: error: with this shape the model has 16 facets, more than the limit of 15; a "
-      "smaller $fn gives fewer, --curves smooth none");
-  EXPECT_EQ(tree(read_good("cylinder($fn=8);sphere($fn=4);", {.max_facets = 16}).model),
+      "smaller $fn gives fewer, --curves smooth none, --limit facets=N raises it");
+  EXPECT_EQ(tree(read_good("cylinder($fn=8);sphere($fn=4);", {.limits = {.facets = 16}}).model),
             "U(y1 s2)");
 }
 
@@ -95,7 +115,8 @@ TEST(CsgMistakes, TheDefaultLimitsLetAMillionLevelsPassAndNoMore) {
   };
   EXPECT_EQ(tree_of(nested(1'000'000)), "U(c1)");
   EXPECT_EQ(read_bad(nested(1'000'001)),
-            "t.csg:1:7000008: error: statements are nested deeper than the limit of 1000000");
+            "t.csg:1:7000008: error: statements are nested deeper than the limit of 1000000; "
+            "--limit depth=N raises it");
 }
 
 // A file with some of everything.

@@ -21,6 +21,7 @@
 #include "io/csg_statements.h"
 #include "io/csg_values.h"
 #include "io/flat_shapes.h"
+#include "io/input_file.h"
 #include "io/polish.h"
 #include "io/read.h"
 #include "io/tree_edit.h"
@@ -60,6 +61,7 @@ class CsgReader {
   CsgReader(std::string_view text, const std::string& file_name, const ReadOptions& options)
       : options_(options), lexer_(text), warnings_(file_name) {
     model_.file = file_name;
+    arguments_.most_values = options.limits.values;
     model_.nodes.push_back({.kind = NodeKind::kUnion, .where = {1, 1}});
     stack_.push_back({.node = 0});
     scopes_.emplace_back();
@@ -115,7 +117,6 @@ class CsgReader {
   std::vector<GivenFragments> scopes_;  ///< [0] is the top level, where assignments go
   std::vector<PendingCurve> pending_;
   CsgArguments arguments_;
-  std::vector<uint32_t> scratch_;
 };
 
 bool CsgReader::read_statements() {
@@ -177,7 +178,7 @@ bool CsgReader::read_statement() {
   if (c == '=') return read_assignment(name, where);
   if (c != '(') return expected(fmt::format("'(' after {}", quote(name)));
   lexer_.advance();
-  if (!read_arguments(lexer_, constants_, warnings_, name == "text", arguments_, scratch_)) {
+  if (!read_arguments(lexer_, constants_, warnings_, name == "text", arguments_)) {
     return false;
   }
 
@@ -217,9 +218,10 @@ bool CsgReader::open_children(const StatementType& type, OpenStatement open) {
   if (open.single && c != '%' && c != '#' && c != '!' && c != '*' && !is_name_start(c)) {
     return expected("';', '{' or a statement");
   }
-  if (stack_.size() > options_.max_depth) {
-    return lexer_.fail(open.where, fmt::format("statements are nested deeper than the limit of {}",
-                                               options_.max_depth));
+  if (stack_.size() > options_.limits.depth) {
+    return lexer_.fail(open.where, fmt::format("statements are nested deeper than the limit of {}; "
+                                               "--limit depth=N raises it",
+                                               options_.limits.depth));
   }
   if (!open.single) lexer_.advance();
   if (is_leaf(type.meaning) && !open.drops_children) {
@@ -275,10 +277,11 @@ void CsgReader::close(const OpenStatement& closed) {
 
 bool CsgReader::add_node(const Statement& statement, Modifiers modifiers, std::string_view name,
                          uint32_t scope) {
-  if (model_.nodes.size() >= std::min<size_t>(options_.max_nodes, kNone - 1)) {
+  if (model_.nodes.size() >= std::min<size_t>(options_.limits.nodes, kNone - 1)) {
     return lexer_.fail(
         statement.where,
-        fmt::format("there are more statements than the limit of {}", options_.max_nodes));
+        fmt::format("there are more statements than the limit of {}; --limit nodes=N raises it",
+                    options_.limits.nodes));
   }
   if (modifiers.root) {
     if (root_ == kNone) {
@@ -396,8 +399,8 @@ void CsgReader::choose_facets_of(uint32_t primitive, const GivenFragments& given
 bool CsgReader::read_assignment(std::string_view name, SourceLocation where) {
   lexer_.advance();
   arguments_.values.clear();
-  if (!read_value(lexer_, constants_, warnings_, arguments_.values, scratch_)) return false;
-  if (lexer_.peek() != ';') return expected("';'");
+  if (!read_value(lexer_, constants_, warnings_, arguments_)) return false;
+  if (lexer_.peek() != ';') return expected_after_value(lexer_, "';'");
   lexer_.advance();
   if (stack_.size() > 1) {
     if (stack_.back().single) return lexer_.fail(where, "expected a statement, not an assignment");
@@ -407,12 +410,18 @@ bool CsgReader::read_assignment(std::string_view name, SourceLocation where) {
     }
     return true;
   }
+  if (!constants_.admit(lexer_, name, where)) return false;
   const Value& value = arguments_.values.front();
   if (!constants_.assign(name, value)) {
     warn_unsupported(where, "a name is assigned after it was used",
                      "where OpenSCAD would use this value too");
   }
-  if (!scopes_[0].set(name, value)) assign_view(name, value, where);
+  if (!scopes_[0].set(name, value)) {
+    assign_view(name, value, where);
+  } else if (value.kind != Value::Kind::kNumber) {
+    const std::string message = fmt::format("{} is not a number; it is ignored", name);
+    warnings_.add(message, where, message);
+  }
   return true;
 }
 
@@ -421,18 +430,20 @@ void CsgReader::assign_view(std::string_view name, const Value& value, SourceLoc
   const std::optional<Vec3> vector = as_vec3(value);
   const bool is_vector = vector && is_finite(*vector);
   const bool is_number = value.kind == Value::Kind::kNumber && std::isfinite(value.number);
+  const bool is_angle = is_number && value.number > 0 && value.number < 180;
   if (name == "$vpt" && is_vector) {
     view.target = *vector;
   } else if (name == "$vpr" && is_vector) {
     view.rotation_degrees = *vector;
   } else if (name == "$vpd" && is_number) {
     view.distance = value.number;
-  } else if (name == "$vpf" && is_number) {
+  } else if (name == "$vpf" && is_angle) {
     view.fov_degrees = value.number;
   } else if (name == "$vpt" || name == "$vpr" || name == "$vpd" || name == "$vpf") {
-    const std::string message =
-        fmt::format("{} is not {}; it is ignored", name,
-                    name == "$vpt" || name == "$vpr" ? "three numbers" : "a number");
+    const std::string message = fmt::format("{} is not {}; it is ignored", name,
+                                            name == "$vpd"   ? "a number"
+                                            : name == "$vpf" ? "a number between 0 and 180"
+                                                             : "three numbers");
     warnings_.add(message, where, message);
   }
 }
@@ -444,7 +455,7 @@ bool CsgReader::finish() {
   }
   if (root_ != kNone) keep_subtree(model_, root_);
   remove_marked(model_);
-  std::optional<Mistake> mistake = check_facets(model_, options_.max_facets);
+  std::optional<Mistake> mistake = check_facets(model_, options_.limits.facets);
   if (!mistake) mistake = build_polyhedra(model_);
   if (mistake) return lexer_.fail(mistake->where, std::move(mistake->message));
   for (std::string& warning : transform_warnings(model_)) {
@@ -454,7 +465,8 @@ bool CsgReader::finish() {
 }
 
 /// The text as it can be read, without a byte-order mark; or why it is no text.
-Result<std::string_view> check_text(std::string_view text, const std::string& file_name) {
+Result<std::string_view> check_text(std::string_view text, const std::string& file_name,
+                                    const ReadLimits& limits) {
   const auto refuse = [&](SourceLocation where, std::string_view why) {
     return Error{ErrorKind::kInput, message_at(file_name, where, fmt::format("error: {}", why))};
   };
@@ -462,7 +474,12 @@ Result<std::string_view> check_text(std::string_view text, const std::string& fi
     return refuse({1, 1}, "the file is UTF-16 text; save it as UTF-8");
   }
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  if (text.size() >= kNone) return refuse({1, 1}, "the file is larger than 4 GiB");
+  if (text.size() > limits.bytes) {
+    return refuse(
+        {1, 1},
+        fmt::format("larger than the limit of {} bytes; --limit bytes=N raises it", limits.bytes));
+  }
+  if (text.size() > kMostTextBytes) return refuse({1, 1}, "larger than 4 GiB");
   if (const size_t at = text.find('\0'); at != std::string_view::npos) {
     SourceLocation where{1, 1};
     for (const char c : text.substr(0, at)) {
@@ -478,7 +495,7 @@ Result<std::string_view> check_text(std::string_view text, const std::string& fi
 
 Result<Read> read_csg(std::string_view text, const std::string& file_name,
                       const ReadOptions& options) {
-  const Result<std::string_view> checked = check_text(text, file_name);
+  const Result<std::string_view> checked = check_text(text, file_name, options.limits);
   if (!checked) return checked.error();
   return CsgReader(*checked, file_name, options).read();
 }

@@ -98,22 +98,34 @@ std::optional<Vec3> vec3_or_vec2(const Value* value, double z) {
   return numbers(value, e, 3) >= 2 ? std::optional(Vec3{e[0], e[1], e[2]}) : std::nullopt;
 }
 
-void read_center(const Value* value, bool& center) {
-  if (value && value->kind == Value::Kind::kBool) center = value->number != 0;
+/// A number that is given; undef is as good as nothing.
+std::optional<double> read_number(const Statement& statement, size_t index, Warnings& warnings) {
+  const Value* const value = argument(statement, index);
+  if (!value || value->kind == Value::Kind::kUndef) return std::nullopt;
+  if (is_number(value)) return value->number;
+  warn(statement,
+       fmt::format("{} is not a number; it is ignored", statement.type->parameters[index]),
+       warnings);
+  return std::nullopt;
+}
+
+void read_center(const Statement& statement, size_t index, bool& center, Warnings& warnings) {
+  const Value* const value = argument(statement, index);
+  if (!value || value->kind == Value::Kind::kUndef) return;
+  if (value->kind == Value::Kind::kBool) {
+    center = value->number != 0;
+  } else {
+    warn(statement, "center is neither true nor false; it is ignored", warnings);
+  }
 }
 
 /// The radius by radius or diameter; the diameter wins.
 std::optional<double> radius(const Statement& statement, size_t radius_index, size_t diameter_index,
                              Warnings& warnings) {
-  const Value* const r = argument(statement, radius_index);
-  const Value* const d = argument(statement, diameter_index);
-  if (is_number(d)) {
-    if (r && r->kind != Value::Kind::kUndef) {
-      warn(statement, "a radius is ignored because the diameter is given too", warnings);
-    }
-    return d->number / 2;
-  }
-  return is_number(r) ? std::optional(r->number) : std::nullopt;
+  const std::optional<double> r = read_number(statement, radius_index, warnings);
+  const std::optional<double> d = read_number(statement, diameter_index, warnings);
+  if (r && d) warn(statement, "a radius is ignored because the diameter is given too", warnings);
+  return d ? *d / 2 : r;
 }
 
 Affine multmatrix(const Statement& statement, Warnings& warnings) {
@@ -124,12 +136,19 @@ Affine multmatrix(const Statement& statement, Warnings& warnings) {
     return {};
   }
   int i = 0;
+  bool understood = true;
   for (const Value* row = rows->begin(); row != rows->end() && i < 4; row += row->extent, ++i) {
+    understood &= is_vector(row);
     if (!is_vector(row)) continue;
     int j = 0;
     for (const Value* e = row->begin(); e != row->end() && j < 4; e += e->extent, ++j) {
+      understood &= is_number(e);
       if (is_number(e)) m[i][j] = e->number;
     }
+  }
+  if (!understood) {
+    warn(statement, "not all of the matrix is four rows of four numbers; the rest is ignored",
+         warnings);
   }
   if (m[3][3] != 1) {
     for (auto& row : m) {
@@ -230,7 +249,9 @@ Statement bind_arguments(const StatementType& type, SourceLocation where,
   for (const Argument& argument : arguments.list) {
     const Value& value = arguments.values[argument.value];
     if (argument.name.starts_with('$')) {
-      statement.fragments.set(argument.name, value);
+      if (statement.fragments.set(argument.name, value) && !is_number(&value)) {
+        warn(statement, fmt::format("{} is not a number; it is ignored", argument.name), warnings);
+      }
       continue;
     }
     if (!type.checks_arguments) continue;
@@ -252,6 +273,11 @@ Statement bind_arguments(const StatementType& type, SourceLocation where,
                                  quote(argument.name)));
         continue;
       }
+      if (statement.arguments[index]) {
+        warn(statement,
+             fmt::format("{} is given more than once; the last one counts", argument.name),
+             warnings);
+      }
     }
     statement.arguments[index] = &value;
   }
@@ -269,7 +295,7 @@ Cube make_cube(const Statement& statement, Warnings& warnings) {
       warn(statement, "the size is neither a number nor three; it is read as 1", warnings);
     }
   }
-  read_center(argument(statement, 1), cube.center);
+  read_center(statement, 1, cube.center, warnings);
   return cube;
 }
 
@@ -281,14 +307,14 @@ Sphere make_sphere(const Statement& statement, Warnings& warnings) {
 
 Cylinder make_cylinder(const Statement& statement, Warnings& warnings) {
   Cylinder cylinder;
-  if (const Value* const h = argument(statement, 0); is_number(h)) cylinder.h = h->number;
+  cylinder.h = read_number(statement, 0, warnings).value_or(cylinder.h);
   const std::optional<double> r = radius(statement, 4, 5, warnings);
   const std::optional<double> r1 = radius(statement, 1, 6, warnings);
   const std::optional<double> r2 = radius(statement, 2, 7, warnings);
   if (r && (r1 || r2)) warn(statement, "more radii are given than can be meant", warnings);
   cylinder.r1 = r1 ? *r1 : r.value_or(cylinder.r1);
   cylinder.r2 = r2 ? *r2 : r.value_or(cylinder.r2);
-  read_center(argument(statement, 3), cylinder.center);
+  read_center(statement, 3, cylinder.center, warnings);
   return cylinder;
 }
 
@@ -339,7 +365,10 @@ Polyhedron make_polyhedron(const Statement& statement, std::string& mistake) {
       // The comparisons are false for NaN.
       if (!is_number(corner) || !(corner->number >= 0) ||
           !(corner->number < static_cast<double>(polyhedron.points.size()))) {
-        mistake = fmt::format("faces[{}] names a point that there is not", number);
+        mistake = fmt::format(
+            "faces[{}] names {}; there are {} points, counted from 0", number,
+            is_number(corner) ? fmt::format("point {}", corner->number) : "what is not a number",
+            polyhedron.points.size());
         return {};
       }
       face.push_back(static_cast<uint32_t>(corner->number));

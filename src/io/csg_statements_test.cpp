@@ -270,6 +270,29 @@ TEST(CsgStatements, Color) {
   }
 }
 
+TEST(CsgStatements, ArgumentsOfAWrongTypeAreIgnoredWithAWarning) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"sphere(\"big\");", "sphere: r is not a number; it is ignored"},
+      {"sphere(d = [1]);", "sphere: d is not a number; it is ignored"},
+      {"cylinder(h = true);", "cylinder: h is not a number; it is ignored"},
+      {"cylinder(r2 = \"a\");", "cylinder: r2 is not a number; it is ignored"},
+      {"cube(center = 1);", "cube: center is neither true nor false; it is ignored"},
+      {"sphere($fn = \"a\");", "sphere: $fn is not a number; it is ignored"},
+      {"$fs = true; sphere();", "$fs is not a number; it is ignored"},
+      {"$vpf = 180; sphere();", "$vpf is not a number between 0 and 180; it is ignored"},
+      {"cube(size = 1, size = 2);", "cube: size is given more than once; the last one counts"},
+      {"multmatrix([[1,0,0,0],\"a\"]) cube();",
+       "multmatrix: not all of the matrix is four rows of four numbers; the rest is ignored"},
+  };
+  for (const auto& [text, expected] : cases) {
+    const Read read = read_good(text);
+    ASSERT_EQ(read.warnings.size(), 1u) << text;
+    EXPECT_EQ(read.warnings[0], "t.csg:1:1: warning: " + std::string(expected));
+    EXPECT_FALSE(read.unsupported) << text;
+  }
+  EXPECT_FALSE(warns("sphere(r = undef, d = undef); cylinder(h = undef, center = undef);"));
+}
+
 TEST(CsgStatements, ArgumentsThatAreNotKnownGiveAWarningButCountAsUnderstood) {
   const Read read = read_good("cube(size = 2,\n  colour = 3);");
   ASSERT_EQ(read.warnings.size(), 1u);

@@ -14,8 +14,8 @@ namespace {
 // double the size of the model with every line. A matrix has 21.
 constexpr uint32_t kLargestConstant = 32;
 
-// For the same reason vectors that names stand for may not fill a statement with more than this.
-constexpr size_t kMostValuesByName = 10'000'000;
+// Far more than any file has, and few enough for the memory.
+constexpr size_t kMostNames = 1'000'000, kMostArguments = 100'000;
 
 // Characters after which a value goes on, in OpenSCAD's language, as an expression.
 constexpr std::string_view kOperators = "+-*/%<>=!&|?:([.^";
@@ -35,7 +35,73 @@ std::optional<Value> built_in(std::string_view name) {
   return std::nullopt;
 }
 
-bool expected(CsgLexer& lexer, std::string_view what) {
+bool too_many_values(CsgLexer& lexer, SourceLocation where, size_t limit) {
+  return lexer.fail(where, fmt::format("the statement has more values than the limit of {}; "
+                                       "--limit values=N raises it",
+                                       limit));
+}
+
+/// Adds a value of that kind, to be filled in; null if there are too many, which is a mistake then.
+Value* add_value(CsgLexer& lexer, CsgArguments& arguments, Value::Kind kind) {
+  if (arguments.values.size() >= arguments.most_values) {
+    too_many_values(lexer, lexer.location(), arguments.most_values);
+    return nullptr;
+  }
+  Value& value = arguments.values.emplace_back();
+  value.kind = kind;
+  return &value;
+}
+
+bool append_named(CsgLexer& lexer, std::string_view name, SourceLocation where,
+                  Constants& constants, Warnings& warnings, CsgArguments& arguments) {
+  if (!constants.admit(lexer, name, where)) return false;
+  const Value* const value = constants.look_up(name, where, warnings);
+  std::vector<Value>& values = arguments.values;
+  if (values.size() + value->extent > arguments.most_values) {
+    return too_many_values(lexer, where, arguments.most_values);
+  }
+  values.insert(values.end(), value, value->end());
+  return true;
+}
+
+/// Reads what is not a vector.
+bool read_scalar(CsgLexer& lexer, Constants& constants, Warnings& warnings,
+                 CsgArguments& arguments) {
+  char c = lexer.peek();
+  if (c == '"') {
+    Value* const value = add_value(lexer, arguments, Value::Kind::kString);
+    return value && lexer.string(value->text);
+  }
+  bool negative = false;
+  while (c == '-' || c == '+') {
+    negative ^= c == '-';
+    lexer.advance();
+    c = lexer.peek();
+  }
+  if (is_digit(c) || c == '.') {
+    Value* const value = add_value(lexer, arguments, Value::Kind::kNumber);
+    if (!value || !lexer.number(value->number)) return false;
+    if (negative) value->number = -value->number;
+    return true;
+  }
+  if (is_name_start(c)) {
+    const SourceLocation where = lexer.location();
+    std::vector<Value>& values = arguments.values;
+    const size_t first = values.size();
+    if (!append_named(lexer, lexer.identifier(), where, constants, warnings, arguments)) {
+      return false;
+    }
+    for (size_t i = first; negative && i < values.size(); ++i) {
+      values[i].number = -values[i].number;
+    }
+    return true;
+  }
+  return expected_after_value(lexer, "a value");
+}
+
+}  // namespace
+
+bool expected_after_value(CsgLexer& lexer, std::string_view what) {
   const char c = lexer.peek();
   const SourceLocation where = lexer.location();
   const bool expression = c != '\0' && kOperators.find(c) != std::string_view::npos;
@@ -45,50 +111,10 @@ bool expected(CsgLexer& lexer, std::string_view what) {
                                                   : ""));
 }
 
-bool append_named(CsgLexer& lexer, std::string_view name, SourceLocation where,
-                  Constants& constants, Warnings& warnings, std::vector<Value>& values) {
-  const Value* const value = constants.look_up(name, where, warnings);
-  if (value->extent > 1 && values.size() > kMostValuesByName) {
-    return lexer.fail(
-        where, fmt::format("the statement has more than {} values by name", kMostValuesByName));
-  }
-  values.insert(values.end(), value, value->end());
-  return true;
+bool Constants::admit(CsgLexer& lexer, std::string_view name, SourceLocation where) const {
+  if (table_.size() < kMostNames || table_.contains(name)) return true;
+  return lexer.fail(where, fmt::format("the file has more than {} names for values", kMostNames));
 }
-
-/// Reads what is not a vector.
-bool read_scalar(CsgLexer& lexer, Constants& constants, Warnings& warnings,
-                 std::vector<Value>& values) {
-  char c = lexer.peek();
-  if (c == '"') {
-    values.emplace_back().kind = Value::Kind::kString;
-    return lexer.string(values.back().text);
-  }
-  bool negative = false;
-  while (c == '-' || c == '+') {
-    negative ^= c == '-';
-    lexer.advance();
-    c = lexer.peek();
-  }
-  if (is_digit(c) || c == '.') {
-    values.emplace_back().kind = Value::Kind::kNumber;
-    if (!lexer.number(values.back().number)) return false;
-  } else if (is_name_start(c)) {
-    const SourceLocation where = lexer.location();
-    const size_t first = values.size();
-    if (!append_named(lexer, lexer.identifier(), where, constants, warnings, values)) return false;
-    for (size_t i = first; negative && i < values.size(); ++i) {
-      values[i].number = -values[i].number;
-    }
-    return true;
-  } else {
-    return expected(lexer, "a value");
-  }
-  if (negative) values.back().number = -values.back().number;
-  return true;
-}
-
-}  // namespace
 
 const Value* Constants::look_up(std::string_view name, SourceLocation where, Warnings& warnings) {
   if (name == "false") return &kFalse;
@@ -119,17 +145,18 @@ bool Constants::assign(std::string_view name, const Value& value) {
 }
 
 bool read_value(CsgLexer& lexer, Constants& constants, Warnings& warnings,
-                std::vector<Value>& values, std::vector<uint32_t>& scratch) {
-  std::vector<uint32_t>& open = scratch;
+                CsgArguments& arguments) {
+  std::vector<Value>& values = arguments.values;
+  std::vector<uint32_t>& open = arguments.open;
   open.clear();
   for (;;) {
     bool complete = true;
     if (lexer.peek() == '[') {
-      lexer.advance();
       open.push_back(static_cast<uint32_t>(values.size()));
-      values.emplace_back().kind = Value::Kind::kVector;
+      if (!add_value(lexer, arguments, Value::Kind::kVector)) return false;
+      lexer.advance();
       complete = lexer.peek() == ']';
-    } else if (!read_scalar(lexer, constants, warnings, values)) {
+    } else if (!read_scalar(lexer, constants, warnings, arguments)) {
       return false;
     }
     while (complete) {
@@ -145,20 +172,24 @@ bool read_value(CsgLexer& lexer, Constants& constants, Warnings& warnings,
         values[open.back()].extent = static_cast<uint32_t>(values.size()) - open.back();
         open.pop_back();
       } else if (complete) {
-        return expected(lexer, "',' or ']'");
+        return expected_after_value(lexer, "',' or ']'");
       }
     }
   }
 }
 
 bool read_arguments(CsgLexer& lexer, Constants& constants, Warnings& warnings, bool is_text,
-                    CsgArguments& arguments, std::vector<uint32_t>& scratch) {
+                    CsgArguments& arguments) {
   std::vector<Value>& values = arguments.values;
   arguments.list.clear();
   values.clear();
   char c = lexer.peek();
   while (c != ')') {
     const SourceLocation where = lexer.location();
+    if (arguments.list.size() >= kMostArguments) {
+      return lexer.fail(where,
+                        fmt::format("the statement has more than {} arguments", kMostArguments));
+    }
     const auto index = static_cast<uint32_t>(values.size());
     std::string_view name;
     bool has_value = false;
@@ -167,16 +198,16 @@ bool read_arguments(CsgLexer& lexer, Constants& constants, Warnings& warnings, b
       if (lexer.peek() == '=' && !lexer.is_followed_by('=')) {
         lexer.advance();
       } else {
-        if (!append_named(lexer, name, where, constants, warnings, values)) return false;
+        if (!append_named(lexer, name, where, constants, warnings, arguments)) return false;
         name = {};
         has_value = true;
       }
     }
     if (!has_value) {
       if (is_text && name == "text" && lexer.peek() == '"') {
-        values.emplace_back().kind = Value::Kind::kString;
-        if (!lexer.dumped_text(values.back().text)) return false;
-      } else if (!read_value(lexer, constants, warnings, values, scratch)) {
+        Value* const value = add_value(lexer, arguments, Value::Kind::kString);
+        if (!value || !lexer.dumped_text(value->text)) return false;
+      } else if (!read_value(lexer, constants, warnings, arguments)) {
         return false;
       }
     }
@@ -186,7 +217,7 @@ bool read_arguments(CsgLexer& lexer, Constants& constants, Warnings& warnings, b
       lexer.advance();
       c = lexer.peek();
     } else if (c != ')') {
-      return expected(lexer, "',' or ')'");
+      return expected_after_value(lexer, "',' or ')'");
     }
   }
   lexer.advance();

@@ -34,9 +34,13 @@ struct Argument {
   SourceLocation where;
 };
 
+/// The values of a statement. One object serves all statements, so that nothing is allocated each
+/// time.
 struct CsgArguments {
   std::vector<Argument> list;
   std::vector<Value> values;
+  size_t most_values = SIZE_MAX;  ///< more are a mistake
+  std::vector<uint32_t> open;     ///< scratch: vectors that are being read
 };
 
 /// Names that stand for values: OpenSCAD's own, and those assigned at the top level.
@@ -44,7 +48,11 @@ class Constants {
  public:
   /// The value of `name`, with all that is in it; undef, and a warning, if there is none.
   /// Names of numbers that are not finite, as dumps have them (inf, nan), are numbers.
+  /// Precondition here and below: the name was admitted.
   const Value* look_up(std::string_view name, SourceLocation where, Warnings& warnings);
+
+  /// False, and a mistake, if `name` would be one too many.
+  bool admit(CsgLexer& lexer, std::string_view name, SourceLocation where) const;
 
   /// `name` stands for `value` from here on. False if OpenSCAD would use it elsewhere too (there
   /// the last assignment of a name rules wherever the name is used) and that use has passed.
@@ -58,15 +66,17 @@ class Constants {
   std::map<std::string, Constant, std::less<>> table_;
 };
 
-/// Reads one value and appends it to `values`. False: a mistake, recorded in the lexer.
-/// `scratch` is working space, kept by the caller so that it is not allocated each time.
-bool read_value(CsgLexer& lexer, Constants& constants, Warnings& warnings,
-                std::vector<Value>& values, std::vector<uint32_t>& scratch);
+/// Records as a mistake that `what` was expected instead of what comes next, where a value may have
+/// ended; what goes on as an expression is said to. Always false.
+bool expected_after_value(CsgLexer& lexer, std::string_view what);
+
+/// Reads one value and appends it to `arguments.values`. False: a mistake, recorded in the lexer.
+bool read_value(CsgLexer& lexer, Constants& constants, Warnings& warnings, CsgArguments& arguments);
 
 /// Reads arguments up to and with the closing parenthesis into `arguments`, which is cleared first.
 /// The opening one has been read. `is_text` says that the arguments are those of text(), whose
 /// string may need to be recovered.
 bool read_arguments(CsgLexer& lexer, Constants& constants, Warnings& warnings, bool is_text,
-                    CsgArguments& arguments, std::vector<uint32_t>& scratch);
+                    CsgArguments& arguments);
 
 }  // namespace whittle

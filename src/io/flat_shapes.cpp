@@ -34,7 +34,8 @@ std::optional<Mistake> check_facets(const Model& model, size_t limit) {
     if (total > limit) {
       return Mistake{node.where,
                      fmt::format("with this shape the model has {} facets, more than the limit of "
-                                 "{}; a smaller $fn gives fewer, --curves smooth none",
+                                 "{}; a smaller $fn gives fewer, --curves smooth none, --limit "
+                                 "facets=N raises it",
                                  total, limit)};
     }
   }

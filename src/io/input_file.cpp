@@ -5,37 +5,35 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <system_error>
 
 namespace whittle {
 namespace {
 
-// No text is longer (places in it are counted in 32 bits), but /dev/zero is.
-constexpr size_t kMostBytes = (size_t{1} << 32) - 1;
-
-/// All that is left to read; the error number, or 0, in `error`.
-std::string read_all(int descriptor, int& error) {
+/// All that is left to read, up to a little more than `most_bytes`; the error number, or 0, in
+/// `error`.
+std::string read_all(int descriptor, size_t most_bytes, int& error) {
   std::string text;
   struct stat status {};
   // One byte more than the file has, so that its end shows without growing the buffer.
   constexpr size_t kChunk = 1 << 16;
   const bool has_size = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
-  if (has_size && static_cast<size_t>(status.st_size) > kMostBytes) {
-    error = EFBIG;
-    return text;
-  }
-  text.resize(has_size ? static_cast<size_t>(status.st_size) + 1 : kChunk);
+  const size_t expected = has_size ? static_cast<size_t>(status.st_size) + 1 : kChunk;
+  text.resize(std::min(expected, most_bytes + 1));
   size_t size = 0;
   error = 0;
-  for (;;) {
-    if (size == text.size()) text.resize(2 * text.size());
+  while (size <= most_bytes) {
+    if (size == text.size()) text.resize(std::min(2 * text.size(), most_bytes + 1));
     const ssize_t got = ::read(descriptor, text.data() + size, text.size() - size);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) error = errno;
-    if (got > 0 && size + static_cast<size_t>(got) > kMostBytes) error = EFBIG;
-    if (got <= 0 || error != 0) break;
+    if (got <= 0) break;
+    const bool is_text = std::memchr(text.data() + size, 0, static_cast<size_t>(got)) == nullptr;
     size += static_cast<size_t>(got);
+    if (!is_text) break;
   }
   text.resize(size);
   return text;
@@ -43,19 +41,23 @@ std::string read_all(int descriptor, int& error) {
 
 }  // namespace
 
-Result<std::string> read_text(const std::string& path) {
+Result<std::string> read_text(const std::string& path, size_t most_bytes) {
   const bool is_standard = path == "-";
   const int descriptor = is_standard ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   int error = errno;
   std::string text;
   if (descriptor >= 0) {
-    text = read_all(descriptor, error);
+    text = read_all(descriptor, most_bytes, error);
     if (!is_standard) ::close(descriptor);
   }
-  if (error != 0) {
+  const auto refuse = [&](const std::string& why) {
     return Error{ErrorKind::kInput,
-                 fmt::format("{}: error: cannot be read: {}", is_standard ? "<stdin>" : path,
-                             std::generic_category().message(error))};
+                 fmt::format("{}: error: {}", is_standard ? "<stdin>" : path, why)};
+  };
+  if (error != 0) return refuse("cannot be read: " + std::generic_category().message(error));
+  if (text.size() > most_bytes) {
+    return refuse(
+        fmt::format("larger than the limit of {} bytes; --limit bytes=N raises it", most_bytes));
   }
   return text;
 }

@@ -1,14 +1,19 @@
 // A whole file as text.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "base/result.h"
 
 namespace whittle {
 
-/// The bytes of a file; "-" is standard input. Errors: kInput, with the system's reason;
-/// a file of 4 GiB or more is too large.
-Result<std::string> read_text(const std::string& path);
+/// Places in a text are counted in 32 bits.
+inline constexpr size_t kMostTextBytes = (size_t{1} << 32) - 1;
+
+/// The bytes of a file; "-" is standard input. What has a zero byte in it is no text, and may end
+/// there: devices never do. Errors: kInput, with the system's reason, or that it has more bytes
+/// than `most_bytes` (at most kMostTextBytes).
+Result<std::string> read_text(const std::string& path, size_t most_bytes = kMostTextBytes);
 
 }  // namespace whittle

@@ -75,6 +75,8 @@ Result<OutputFile> OutputFile::create(const std::string& target) {
   if (slash + 1 == file.target_.size()) return file.system_error(target.empty() ? ENOENT : EISDIR);
   for (int attempt = 0; attempt < kMostAttempts && file.descriptor_ < 0; ++attempt) {
     file.temporary_ = fmt::format("{}.whittle-{}-{}", folder, ::getpid(), next_number++);
+    // Before the file is there: an interruption may come between any two steps.
+    file.pending_ = std::make_unique<PendingFile>(file.temporary_);
     file.descriptor_ =
         ::open(file.temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file.descriptor_ < 0 && errno != EEXIST) break;
@@ -82,9 +84,9 @@ Result<OutputFile> OutputFile::create(const std::string& target) {
   if (file.descriptor_ < 0) {
     const int reason = errno;
     file.temporary_.clear();
+    file.pending_.reset();
     return file.system_error(reason);
   }
-  file.pending_ = std::make_unique<PendingFile>(file.temporary_);
   if (exists && ::fchmod(file.descriptor_, status.st_mode & 07777) != 0) {
     return file.system_error(errno);
   }

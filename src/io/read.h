@@ -17,13 +17,20 @@
 
 namespace whittle {
 
-/// How to read, and what is too much. A limit that is passed is an error that names it.
+/// What is too much. A limit that is passed is an error that names it (why these:
+/// docs/decisions/0010-limits.md).
+struct ReadLimits {
+  size_t bytes = 500'000'000;  ///< of text; at most kMostTextBytes
+  size_t depth = 1'000'000;    ///< statements inside statements
+  size_t nodes = 20'000'000;   ///< of the tree, before it is simplified
+  size_t values = 10'000'000;  ///< in one statement: numbers, strings, vectors, and names for them
+  size_t facets = 5'000'000;   ///< flat faces of all spheres, cylinders and polyhedra together
+};
+
 struct ReadOptions {
   Curves curves = Curves::kAuto;
   bool polish = true;  ///< rotations in `multmatrix` get back what printing took (polish.h)
-  uint32_t max_depth = 1'000'000;  ///< statements inside statements
-  size_t max_nodes = 200'000'000;  ///< nodes of the tree, before it is simplified
-  size_t max_facets = 50'000'000;  ///< flat faces of all spheres, cylinders and polyhedra together
+  ReadLimits limits{};
 };
 
 /// Something in a file that whittle does not understand (yet).

@@ -36,7 +36,7 @@ Result<Read> read_scad(const std::string& path, const ReadOptions& options) {
 
 Result<Read> read_file(const std::string& path, const ReadOptions& options) {
   if (path.ends_with(".scad")) return read_scad(path, options);
-  const Result<std::string> text = read_text(path);
+  const Result<std::string> text = read_text(path, std::min(options.limits.bytes, kMostTextBytes));
   if (!text) return text.error();
   return read_csg(*text, path == "-" ? "<stdin>" : path, options);
 }

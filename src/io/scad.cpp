@@ -3,10 +3,12 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <memory>
@@ -36,10 +38,20 @@ class PrivateFolder {
  public:
   static std::optional<PrivateFolder> create() {
     const char* const temporary = std::getenv("TMPDIR");
-    std::string path =
-        fmt::format("{}/whittle-XXXXXX", temporary && *temporary == '/' ? temporary : "/tmp");
-    if (!::mkdtemp(path.data())) return std::nullopt;
-    return PrivateFolder(std::move(path));
+    // Not by mkdtemp, which tells the name only when the folder is there: an interruption may come
+    // before it is known what to remove.
+    constexpr int kMostAttempts = 1000;
+    constexpr mode_t kOnlyMine = 0700;
+    static std::atomic<unsigned> next_number = 0;
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+      PrivateFolder folder(fmt::format("{}/whittle-{}-{}",
+                                       temporary && *temporary == '/' ? temporary : "/tmp",
+                                       ::getpid(), next_number++));
+      if (::mkdir(folder.path_.c_str(), kOnlyMine) == 0) return folder;
+      folder.path_.clear();
+      if (errno != EEXIST) break;
+    }
+    return std::nullopt;
   }
   PrivateFolder(PrivateFolder&& other) noexcept
       : path_(std::exchange(other.path_, {})), pending_(std::move(other.pending_)) {}

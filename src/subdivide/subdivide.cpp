@@ -18,6 +18,10 @@ constexpr uint32_t kExpandAll = 64;
 /// built on its own. Enough to keep many threads busy, few enough to cost nothing.
 constexpr size_t kFrontier = 512;
 
+/// The budget, max_cells, counts a cell as one, and so many literals or tokens that are kept as one
+/// more. As they were looked at on the way, that bounds the time as well.
+constexpr size_t kKeptPerCell = 4;
+
 /// A cell whose formula has not become shorter, in itself and in its sibling, over this many splits
 /// in a row is a corner or an edge where many surfaces meet: no split will part them.
 uint32_t stall_limit(uint32_t literals) {
@@ -35,11 +39,12 @@ struct OpenCell {
 /// Builds cells, appending to a tree of its own.
 class Builder {
  public:
-  Builder(const Scene& scene, const SubdivideSettings& settings, size_t max_cells)
+  /// `budget` as max_cells, for the cells that are built here.
+  Builder(const Scene& scene, const SubdivideSettings& settings, size_t budget)
       : scene_(scene),
         settings_(settings),
         region_edge_(max_component(scene.region.size())),
-        max_cells_(max_cells),
+        budget_(budget),
         simplifier_(scene, region_edge_ * kCellMargin),
         leaf_(scene) {}
 
@@ -91,15 +96,19 @@ class Builder {
       uint32_t slot;
     };
     std::vector<Pending> pending;
-    pending.push_back({std::move(root), root_slot});
+    const auto push = [&](OpenCell cell, uint32_t slot) {
+      pending_tokens_ += cell.formula.size();
+      pending.push_back({std::move(cell), slot});
+    };
+    push(std::move(root), root_slot);
     while (!pending.empty()) {
       Pending now = std::move(pending.back());
       pending.pop_back();
+      pending_tokens_ -= now.cell.formula.size();
       Children children = step(std::move(now.cell), now.slot);
       const uint32_t first = tree.cells[now.slot].index;
       for (uint32_t side = 2; side-- > 0;)
-        if (children.child[side])
-          pending.push_back({std::move(*children.child[side]), first + side});
+        if (children.child[side]) push(std::move(*children.child[side]), first + side);
     }
   }
 
@@ -126,9 +135,8 @@ class Builder {
     const bool small = settings_.is_small && settings_.is_small(world(cell.box));
     const bool useless = !settings_.is_small && edge * edge * literals < settings_.least_use;
     const bool must_end = small || useless || edge * 0.5 < settings_.smallest_edge ||
-                          cell.stalled >= stall_limit(literals) ||
-                          tree.cells.size() + 2 > max_cells_;
-    if (literals > kExpandAll && !must_end) return false;
+                          cell.stalled >= stall_limit(literals) || spent() > budget_;
+    if (literals > kExpandAll && !must_end && !has_few_half_spaces(cell.formula)) return false;
     if (has_units(cell.formula)) {
       const Formula units = std::move(cell.formula);
       const Truth truth = simplifier_.simplify(units, cell.box, true, cell.formula);
@@ -148,6 +156,35 @@ class Builder {
     else
       tree.cells[slot] = leaf_.append_to(tree);
     return true;
+  }
+
+  /// Of the budget, if one more cell is split.
+  size_t spent() const {
+    const size_t kept = tree.literals.size() + tree.tokens.size() + pending_tokens_;
+    return tree.cells.size() + 2 + kept / kKeptPerCell;
+  }
+
+  /// Whether a formula, however long, has no more half-spaces than a truth table can hold: many
+  /// copies of one body.
+  bool has_few_half_spaces(const Formula& formula) const {
+    std::array<uint32_t, kTableLiterals> known;
+    size_t count = 0;
+    const auto is_one_more_known = [&](uint32_t face) {
+      const uint32_t number = scene_.faces[face].literal >> 1;
+      if (std::find(known.begin(), known.begin() + count, number) != known.begin() + count)
+        return true;
+      if (count == known.size()) return false;
+      known[count++] = number;
+      return true;
+    };
+    return std::all_of(formula.begin(), formula.end(), [&](Token token) {
+      if (token.is_group()) return true;
+      if (token.kind() == TokenKind::kFace) return is_one_more_known(token.payload());
+      const Unit& unit = scene_.units[token.payload()];
+      for (uint32_t k = 0; k < unit.face_count; ++k)
+        if (!is_one_more_known(unit.first_face + k)) return false;
+      return true;
+    });
   }
 
   bool simple_enough() const {
@@ -172,14 +209,15 @@ class Builder {
   const Scene& scene_;
   const SubdivideSettings& settings_;
   double region_edge_;
-  size_t max_cells_;
+  size_t budget_;
+  size_t pending_tokens_ = 0;  ///< in formulas of cells that finish() has open
   Simplifier simplifier_;
   LeafAnalysis leaf_;
 };
 
 /// Appends a part built elsewhere: its first cell goes to `slot`, all numbers move by what is
 /// there.
-void append(CellTree& whole, CellTree&& part, uint32_t slot) {
+void append(CellTree& whole, CellTree part, uint32_t slot) {
   const uint32_t cells = uint32_t(whole.cells.size()) - 1, leaves = uint32_t(whole.leaves.size()),
                  literals = uint32_t(whole.literals.size()), steps = uint32_t(whole.steps.size()),
                  tokens = uint32_t(whole.tokens.size());
@@ -220,10 +258,37 @@ struct Frontier {
   uint32_t slot;
 };
 
+/// Whether the tree is split in breadth by one more level. Where nothing gets simpler, formulas
+/// would only fill the memory: they may take half of what is left.
+bool widens(const std::vector<Frontier>& frontier, size_t budget_left) {
+  if (frontier.empty() || frontier.size() >= kFrontier || 2 * frontier.size() > budget_left)
+    return false;
+  size_t tokens = 0;
+  for (const Frontier& open : frontier) tokens += open.cell.formula.size();
+  return tokens / kKeptPerCell <= budget_left / 2;
+}
+
+/// What each open cell gets of the budget: half of it in equal parts, half by how much is in them.
+/// Decided beforehand, so that the cells do not depend on which thread is first.
+std::vector<size_t> shares(const std::vector<Frontier>& frontier, const Scene& scene,
+                           size_t budget) {
+  std::vector<size_t> sizes;
+  size_t total = 0;
+  for (const Frontier& open : frontier) {
+    sizes.push_back(expanded_size(scene, open.cell.formula));
+    total += sizes.back();
+  }
+  std::vector<size_t> result;
+  const double half = 0.5 * double(budget);
+  for (const size_t size : sizes)
+    result.push_back(size_t(half / double(sizes.size()) + half * double(size) / double(total)));
+  return result;
+}
+
 }  // namespace
 
 CellTree subdivide(const Scene& scene, const SubdivideSettings& settings) {
-  const auto builder = [&](size_t max_cells) { return Builder(scene, settings, max_cells); };
+  const auto builder = [&](size_t budget) { return Builder(scene, settings, budget); };
 
   Builder top = builder(settings.max_cells);
   top.tree.region = scene.region;
@@ -239,7 +304,10 @@ CellTree subdivide(const Scene& scene, const SubdivideSettings& settings) {
   if (!top.open_root(frontier[0].cell)) frontier.clear();
 
   Workers workers(settings.threads);
-  while (!frontier.empty() && frontier.size() < kFrontier) {
+  const auto budget_left = [&] {
+    return settings.max_cells - std::min(settings.max_cells, top.tree.cells.size());
+  };
+  while (widens(frontier, budget_left())) {
     std::vector<Frontier> next;
     std::vector<CellTree> parts(frontier.size());
     std::vector<Builder::Children> children(frontier.size());
@@ -262,9 +330,10 @@ CellTree subdivide(const Scene& scene, const SubdivideSettings& settings) {
   }
 
   std::vector<CellTree> parts(frontier.size());
+  const std::vector<size_t> budgets = shares(frontier, scene, budget_left());
   workers.for_parts(frontier.size(), 1, [&](size_t first, size_t last, size_t) {
     for (size_t i = first; i < last; ++i) {
-      Builder part = builder(settings.max_cells / frontier.size());
+      Builder part = builder(budgets[i]);
       part.tree.cells.resize(1);
       part.finish(std::move(frontier[i].cell), 0);
       parts[i] = std::move(part.tree);

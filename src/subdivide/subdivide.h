@@ -38,17 +38,22 @@ struct SubdivideSettings {
   std::function<bool(const Box&)> is_small;
   /// Drop the leaves that `is_small` stopped, as the paper did.
   bool ignore_small = false;
-  /// Beyond about so many cells none is split any more: leaves get longer formulas instead.
-  size_t max_cells = size_t(1) << 27;
+  /// Cells that there may be; then none is split any more, and leaves have longer formulas
+  /// instead. The picture is the same. A leaf of many literals counts as several cells, and
+  /// what is open at the end comes on top. At most kMostCells (docs/decisions/0010-limits.md).
+  size_t max_cells = 20'000'000;
   int threads = 0;  ///< 0: all
 };
+
+/// Numbers of what is in the cells have 32 bits.
+inline constexpr size_t kMostCells = size_t(1) << 28;
 
 /// How far a cell is grown before anything is classified against it, as a share of the region's
 /// longest edge. Far above the rounding of a ray's entry and exit (1e-15), far below anything seen;
 /// it puts a surface that lies exactly on a split into both cells, so no ray slips between them.
 inline constexpr double kCellMargin = 1e-10;
 
-/// Never fails; memory is bounded by max_cells. `scene` must outlive the result's use.
+/// Never fails; time and memory are bounded by max_cells. `scene` must outlive the result's use.
 CellTree subdivide(const Scene& scene, const SubdivideSettings& settings);
 
 }  // namespace whittle

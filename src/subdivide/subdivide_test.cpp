@@ -318,6 +318,53 @@ TEST(Subdivide, EveryLeafIsRightInItsCell) {
   EXPECT_EQ(kinds[size_t(CellKind::kIgnored)], 0u);
 }
 
+TEST(Subdivide, KeepsToItsBudgetWhateverTheThreads) {
+  const Scene scene = lowered(random_tree(3, {.primitives = 300}));
+  const CellTree free = subdivide(scene, {});
+  for (const size_t budget : {1u, 2u, 3u, 100u, 2000u}) {
+    SubdivideSettings settings;
+    settings.max_cells = budget;
+    settings.threads = 1;
+    const CellTree one = subdivide(scene, settings);
+    EXPECT_LE(one.cells.size(), budget);
+    EXPECT_LT(one.cells.size(), free.cells.size());
+    settings.threads = 7;
+    const CellTree seven = subdivide(scene, settings);
+    ASSERT_EQ(seven.cells.size(), one.cells.size());
+    for (size_t i = 0; i < one.cells.size(); ++i) {
+      ASSERT_EQ(seven.cells[i].kind, one.cells[i].kind);
+      ASSERT_EQ(seven.cells[i].index, one.cells[i].index);
+    }
+    EXPECT_EQ(seven.literals.size(), one.literals.size());
+  }
+}
+
+TEST(Subdivide, KeepsToItsBudgetWhereNothingGetsSimpler) {
+  // Cylinders that all cross at one point.
+  std::string text;
+  for (int i = 0; i < 400; ++i) {
+    text += "rotate([" + std::to_string(i * 7.1) + "," + std::to_string(i * 31.3) +
+            ",0])cylinder(h=10,r=1,center=true);";
+  }
+  const Scene scene = lowered(text);
+  for (const size_t budget : {10'000u, 30'000u}) {
+    SubdivideSettings settings;
+    settings.max_cells = budget;
+    const CellTree tree = subdivide(scene, settings);
+    // As subdivide.cpp counts; the cells that are open when the budget ends become leaves yet.
+    EXPECT_LE(tree.cells.size() + (tree.literals.size() + tree.tokens.size()) / 4,
+              budget + budget / 2);
+  }
+}
+
+TEST(Subdivide, CopiesOfOneBodyAreOneLeaf) {
+  std::string text;
+  for (int i = 0; i < 1000; ++i) text += "cube(10);";
+  SubdivideSettings settings;
+  settings.max_cells = 1000;
+  EXPECT_EQ(subdivide(lowered(text), settings).cells.size(), 1u);
+}
+
 TEST(Subdivide, LeavesHoldAtMostKWhereCellsMayShrink) {
   const Scene scene = lowered(
       "difference(){cylinder(r=10,h=20); translate([5,0,10]) sphere(4);"

@@ -40,6 +40,16 @@ std::optional<Vec3> to_vec3(const std::optional<Point>& p, const char* name) {
   return to_vec3(*p);
 }
 
+ReadOptions reading_of(const LoadOptions& o) {
+  return {.curves = value_of(choose(curves_choices(), "kind of curves", o.curves)),
+          .polish = value_of(choose(matrices_choices(), "kind of matrices", o.matrices)),
+          .limits = {.bytes = o.most_bytes,
+                     .depth = o.most_depth,
+                     .nodes = o.most_nodes,
+                     .values = o.most_values,
+                     .facets = o.most_facets}};
+}
+
 ViewOptions view_of(const RenderOptions& o) {
   if (o.distance && !(*o.distance >= 0 && std::isfinite(*o.distance))) {
     refuse("distance must be a finite number that is not negative");
@@ -85,17 +95,6 @@ struct Solid::State {
 
 Solid::Solid(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
-namespace {
-
-ReadOptions reading_of(const LoadOptions& options) {
-  ReadOptions reading;
-  reading.curves = value_of(choose(curves_choices(), "kind of curves", options.curves));
-  reading.polish = value_of(choose(matrices_choices(), "kind of matrices", options.matrices));
-  return reading;
-}
-
-}  // namespace
-
 Solid Solid::load(const std::string& path, const LoadOptions& options) {
   State state{value_of(read_file(path, reading_of(options))), {}};
   state.bounds = whittle::bounds(state.read.model);
@@ -135,11 +134,15 @@ Rendering Solid::render(const RenderOptions& options) const {
   if (options.threads < 0 || options.threads > kMostThreads) {
     refuse("threads must be 0 to " + std::to_string(kMostThreads));
   }
+  if (options.most_cells < 1 || options.most_cells > kMostCells) {
+    refuse("most_cells must be 1 to " + std::to_string(kMostCells));
+  }
   const ShadeSettings shading = shading_of(options);
   const ViewOptions view = view_of(options);
   RendererSettings settings;
   settings.backend = value_of(choose(backend_choices(), "backend", options.backend));
   settings.threads = options.threads;
+  settings.subdivide.max_cells = options.most_cells;
   Renderer renderer = value_of(Renderer::make(state_->read.model, settings));
   const Camera camera = renderer.camera(view);
   renderer.prepare(camera);

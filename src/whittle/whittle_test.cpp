@@ -12,6 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using whittle::Failure;
+using whittle::LoadOptions;
 using whittle::Rendering;
 using whittle::RenderOptions;
 using whittle::Solid;
@@ -119,6 +120,37 @@ TEST(Rendering, DoesNotDependOnThreadsNorItsFactsOnTheBackend) {
   size_t differing = 0;
   for (size_t i = 0; i < one.id.size(); ++i) differing += one.id[i] != oracle.id[i];
   EXPECT_LE(differing, 2u) << "rays along edges";
+}
+
+TEST(Rendering, DoesNotDependOnTheLimitOfCells) {
+  const Solid solid = Solid::parse(
+      "difference() { cube(10, center = true); sphere(6); translate([5, 0, 0]) sphere(3); }");
+  RenderOptions options;
+  options.width = options.height = 40;
+  const Rendering many = solid.render(options);
+  for (const size_t cells : {1u, 10u, 1000u}) {
+    options.most_cells = cells;
+    const Rendering few = solid.render(options);
+    EXPECT_EQ(few.id, many.id) << cells;
+    EXPECT_EQ(few.rgba, many.rgba) << cells;
+  }
+}
+
+TEST(Solid, RefusesWhatPassesALimit) {
+  const auto refusal = [](const LoadOptions& options) {
+    return std::string(
+        failure_of([&] { Solid::parse("group() { cube([1, 2, 3]); }", "t", options); }).what());
+  };
+  LoadOptions depth, nodes, values, facets;
+  depth.most_depth = 0;
+  EXPECT_NE(refusal(depth).find("--limit depth"), std::string::npos);
+  nodes.most_nodes = 2;
+  EXPECT_NE(refusal(nodes).find("--limit nodes"), std::string::npos);
+  values.most_values = 3;
+  EXPECT_NE(refusal(values).find("--limit values"), std::string::npos);
+  facets.most_facets = 5;
+  EXPECT_NO_THROW(Solid::parse("cube(1);", "t", facets));
+  EXPECT_THROW(Solid::parse("cylinder($fn = 4);", "t", facets), Failure);
 }
 
 TEST(Rendering, IsTransparentWithoutBackground) {

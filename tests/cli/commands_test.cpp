@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "image/png.h"
-#include "program.h"
+#include "support/program.h"
 
 namespace whittle {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "image/png.h"
-#include "program.h"
+#include "support/program.h"
 
 namespace whittle {
 namespace {
@@ -78,11 +78,24 @@ TEST_F(Machine, AClosedStandardOutputIsNoMatterWhereItIsNotUsed) {
   EXPECT_TRUE(bool(read_png(path("x.png"))));
 }
 
-TEST_F(Machine, RunningOutOfMemoryIsSaid) {
+TEST_F(Machine, RunningOutOfMemoryIsSaidWithTheLimitThatEndedIt) {
   constexpr uint64_t kOneGiB = uint64_t(1) << 30;
-  expect_refused(
-      run({"part.csg", "-o", "x.png", "--imgsize", "16384,16384"}, {.memory_limit = kOneGiB}),
-      "out of memory");
+  const std::vector<std::string> large{"part.csg", "-o", "x.png", "--imgsize", "16384,16384"};
+  expect_refused(run(large, {.memory_limit = kOneGiB}),
+                 "out of memory: the limit of the shell (ulimit -v) is 1.0 GiB");
+  std::vector<std::string> limited = large;
+  limited.insert(limited.end(), {"--limit", "memory=200M"});
+  expect_refused(run(limited),
+                 "out of memory: the limit is 200.0 MiB; --limit memory=SIZE raises it");
+  EXPECT_EQ(files(), std::vector<std::string>{"part.csg"});
+}
+
+TEST_F(Machine, RunningOutOfMemoryIsSaidWhereNoThreadCanStart) {
+  // oneTBB starts them, and throws from where nobody can catch it.
+  const Ended done = run({"part.csg", "-o", "x.png", "--threads", "1000", "--limit", "memory=64M"});
+  EXPECT_EQ(done.exit_code, 3);
+  EXPECT_EQ(done.err.substr(0, 9), "whittle: ") << done.err;
+  EXPECT_EQ(done.err.find('\n'), done.err.size() - 1) << done.err;
   EXPECT_EQ(files(), std::vector<std::string>{"part.csg"});
 }
 

@@ -7,7 +7,7 @@
 
 #include "image/exr.h"
 #include "image/png.h"
-#include "program.h"
+#include "support/program.h"
 
 namespace whittle {
 namespace {

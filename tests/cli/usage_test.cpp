@@ -1,6 +1,6 @@
 // What the program says about itself and about command lines that are not right: exit code 2.
 #include "image/png.h"
-#include "program.h"
+#include "support/program.h"
 
 namespace whittle {
 namespace {
@@ -90,6 +90,18 @@ TEST_F(Usage, WrongNumbersAreRefused) {
                  "--pixel-threshold: wants a number from 0 on, not -1");
   expect_refused({"--light", "1,2"}, "--light: wants 3 numbers, not 2 ('1,2')");
   expect_refused({"--light", "1,2,nan"}, "--light: 'nan' is not a number");
+}
+
+TEST_F(Usage, LimitsAreNamesAndNumbers) {
+  expect_refused({"--limit", "width=3"},
+                 "--limit: unknown limit 'width'; there are: bytes, depth, nodes, values, facets, "
+                 "cells, memory; as in --limit depth=1000");
+  expect_refused({"--limit", "depth"}, "--limit: '' is not a number");
+  expect_refused({"--limit", "nodes=0"}, "--limit: wants a whole number, 1 to 1000000000, not 0");
+  expect_refused({"--limit", "cells=1e9"},
+                 "--limit: wants a whole number, 1 to 268435456, not 1e9");
+  expect_refused({"--limit", "memory=10M"}, "--limit: memory must be at least 64M, not 10M");
+  expect_refused({"--limit", "memory=2X"}, "--limit: '2X' is not a number");
 }
 
 TEST_F(Usage, OfAnOptionGivenTwiceTheLastValueCounts) {

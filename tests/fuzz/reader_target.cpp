@@ -20,7 +20,9 @@ constexpr const char* kFile = "fuzz.csg";
 
 /// Small enough for thousands of inputs a second, large enough to be reached and refused.
 ReadOptions small_limits(Curves curves) {
-  return {.curves = curves, .max_depth = 3000, .max_nodes = 5000, .max_facets = 3000};
+  return {
+      .curves = curves,
+      .limits = {.bytes = 1 << 20, .depth = 3000, .nodes = 5000, .values = 20000, .facets = 3000}};
 }
 
 // Messages.
@@ -202,7 +204,7 @@ void check_primitives(const Model& model, const ReadOptions& limits) {
       require(std::fabs(length(plane.n) - 1) < 1e-9, "a facet without a unit normal");
   }
   // Polyhedra are counted by the faces written, which may be more.
-  require(facets <= limits.max_facets, "more facets than the limit");
+  require(facets <= limits.limits.facets, "more facets than the limit");
 }
 
 /// What stands right of the model in the data path and costs little.

@@ -5,6 +5,7 @@
 #include <sys/types.h>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +15,8 @@ namespace whittle {
 /// How a run ended, and what it said.
 struct Ended {
   int exit_code = -1;  ///< -1: ended by a signal
-  int signal = 0;      ///< that ended it
+  int signal = 0;      ///< that ended it; SIGALRM: it had hung
+  uint64_t peak_memory_bytes = 0;
   std::string out, err;
 };
 
@@ -26,6 +28,7 @@ struct RunSettings {
   StandardOutput out = StandardOutput::kCaptured;
   std::optional<uint64_t> memory_limit{};  ///< bytes of address space
   std::optional<uint64_t> file_limit{};    ///< bytes of any file
+  bool obeys_permissions = false;          ///< even where root runs the tests
 };
 
 class ProgramTest : public testing::Test {
@@ -38,6 +41,10 @@ class ProgramTest : public testing::Test {
   /// Starts a run, ends it by a signal after that time, and waits. Says nothing of what it printed.
   Ended run_and_signal(const std::vector<std::string>& arguments, int signal,
                        int after_microseconds) const;
+
+  /// The same, by a signal as soon as `wait` returns.
+  Ended run_and_signal(const std::vector<std::string>& arguments, int signal,
+                       const std::function<void()>& wait) const;
 
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
   void write(const std::string& name, const std::string& text) const;

@@ -1,6 +1,8 @@
-#include "program.h"
+#include "support/program.h"
 
 #include <fcntl.h>
+#include <linux/capability.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,6 +20,8 @@ namespace whittle {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int kNotStarted = 127;
 
 /// A file without a name, for one of the standard files.
 int temporary_file() {
@@ -45,9 +49,12 @@ void limit(int resource, const std::optional<uint64_t>& bytes) {
 
 Ended wait_for(pid_t child) {
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  rusage usage{};
+  while (::wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
   }
   Ended run;
+  constexpr uint64_t kUnit = 1024;  // Linux counts in kibibytes.
+  run.peak_memory_bytes = uint64_t(usage.ru_maxrss) * kUnit;
   if (WIFEXITED(status)) run.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) run.signal = WTERMSIG(status);
   return run;
@@ -83,10 +90,19 @@ pid_t ProgramTest::start(const std::vector<std::string>& arguments, const RunSet
   for (int other = 3; other < 64; ++other) ::close(other);
   // Whoever runs the tests may have said otherwise.
   for (const int signal : {SIGPIPE, SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
+  // Ends what hangs; what is merely slow has time.
+  constexpr unsigned kPatienceSeconds = 100;
+  ::alarm(kPatienceSeconds);
+  if (settings.obeys_permissions && ::geteuid() == 0) {
+    // Root without these is its files' owner and no more.
+    for (const int capability : {CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH}) {
+      if (::prctl(PR_CAPBSET_DROP, capability, 0, 0, 0) != 0) ::_exit(kNotStarted);
+    }
+  }
   limit(RLIMIT_AS, settings.memory_limit);
   limit(RLIMIT_FSIZE, settings.file_limit);
   if (::chdir(folder_.c_str()) == 0) ::execv(program.c_str(), words.data());
-  ::_exit(127);
+  ::_exit(kNotStarted);
 }
 
 Ended ProgramTest::run(const std::vector<std::string>& arguments,
@@ -115,9 +131,14 @@ Ended ProgramTest::run(const std::vector<std::string>& arguments,
 
 Ended ProgramTest::run_and_signal(const std::vector<std::string>& arguments, int signal,
                                   int after_microseconds) const {
+  return run_and_signal(arguments, signal, [=] { ::usleep(useconds_t(after_microseconds)); });
+}
+
+Ended ProgramTest::run_and_signal(const std::vector<std::string>& arguments, int signal,
+                                  const std::function<void()>& wait) const {
   const int nowhere = ::open("/dev/null", O_RDWR);
   const pid_t child = start(arguments, {}, nowhere, nowhere, nowhere);
-  ::usleep(useconds_t(after_microseconds));
+  wait();
   ::kill(child, signal);
   ::close(nowhere);
   return wait_for(child);

@@ -1,0 +1,121 @@
+#include "limits.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "io/input_file.h"
+#include "option_group.h"
+#include "statistics.h"
+
+namespace whittle {
+namespace {
+
+constexpr const char* kOption = "--limit";
+
+// What numbers of 32 bits hold, with room to spare.
+constexpr int64_t kMost = 1'000'000'000;
+
+// Below this not even the threads can be started.
+constexpr uint64_t kLeastMemory = uint64_t(64) << 20;
+
+/// Bytes, or with K, M or G behind them 1024, 1024^2 or 1024^3 of them.
+uint64_t parse_bytes(const std::string& text, uint64_t most) {
+  constexpr std::string_view kUnits = "KMG";
+  const size_t unit = text.empty() ? std::string_view::npos : kUnits.find(text.back());
+  const bool has_unit = unit != std::string_view::npos;
+  const std::string_view digits = std::string_view(text).substr(0, text.size() - size_t(has_unit));
+  const int shift = has_unit ? 10 * int(unit + 1) : 0;
+  return uint64_t(parse_count(kOption, digits, 1, int64_t(most >> shift))) << shift;
+}
+
+uint64_t parse_memory(const std::string& text) {
+  constexpr uint64_t kMostMemory = uint64_t(1) << 50;
+  const uint64_t bytes = parse_bytes(text, kMostMemory);
+  if (bytes < kLeastMemory) {
+    refuse(kOption, fmt::format("memory must be at least {}M, not {}", kLeastMemory >> 20, text));
+  }
+  return bytes;
+}
+
+void set(Limits& limits, const std::string& text) {
+  const size_t equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  const std::string value = equals == std::string::npos ? "" : text.substr(equals + 1);
+  const auto count = [&](int64_t most) { return size_t(parse_count(kOption, value, 1, most)); };
+  if (name == "bytes") {
+    limits.reading.bytes = size_t(parse_bytes(value, kMostTextBytes));
+  } else if (name == "depth") {
+    limits.reading.depth = count(kMost);
+  } else if (name == "nodes") {
+    limits.reading.nodes = count(kMost);
+  } else if (name == "values") {
+    limits.reading.values = count(kMost);
+  } else if (name == "facets") {
+    limits.reading.facets = count(kMost);
+  } else if (name == "cells") {
+    limits.cells = count(kMostCells);
+  } else if (name == "memory") {
+    limit_memory(parse_memory(value));
+  } else {
+    refuse(kOption, fmt::format("unknown limit '{}'; there are: bytes, depth, nodes, values, "
+                                "facets, cells, memory; as in {} depth=1000",
+                                name, kOption));
+  }
+}
+
+}  // namespace
+
+void add_limit_option(CLI::App& app, Limits& limits) {
+  const Limits defaults;
+  app.add_option_function<std::vector<std::string>>(
+         kOption,
+         [&limits](const std::vector<std::string>& all) {
+           for (const std::string& one : all) set(limits, one);
+         },
+         fmt::format("what is too much; and --limit again for more:\n"
+                     "bytes={}, depth={}, nodes={},\n"
+                     "values={} (of one statement), facets={},\n"
+                     "cells={}, memory=SIZE (what the machine has);\n"
+                     "of bytes and memory also as in 100K, 100M, 2G",
+                     defaults.reading.bytes, defaults.reading.depth, defaults.reading.nodes,
+                     defaults.reading.values, defaults.reading.facets, defaults.cells))
+      ->allow_extra_args(false)
+      ->type_name("NAME=VALUE")
+      ->group("Machine");
+}
+
+void limit_memory(uint64_t bytes) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  rlimit limit{};
+  ::getrlimit(RLIMIT_DATA, &limit);
+  limit.rlim_cur = std::min<rlim_t>(bytes, limit.rlim_max);
+  ::setrlimit(RLIMIT_DATA, &limit);
+#else
+  (void)bytes;
+#endif
+}
+
+uint64_t physical_memory() {
+  return uint64_t(::sysconf(_SC_PHYS_PAGES)) * uint64_t(::sysconf(_SC_PAGESIZE));
+}
+
+std::string out_of_memory() {
+  rlimit ours{}, around{};
+  ::getrlimit(RLIMIT_DATA, &ours);
+  ::getrlimit(RLIMIT_AS, &around);
+  if (around.rlim_cur <= ours.rlim_cur && around.rlim_cur != RLIM_INFINITY) {
+    return fmt::format("out of memory: the limit of the shell (ulimit -v) is {}",
+                       describe_bytes(around.rlim_cur));
+  }
+  if (ours.rlim_cur == RLIM_INFINITY) return "out of memory";
+  return fmt::format("out of memory: the limit is {}; --limit memory=SIZE raises it",
+                     describe_bytes(ours.rlim_cur));
+}
+
+}  // namespace whittle

@@ -1,0 +1,35 @@
+// --limit NAME=VALUE: how much a file may ask for.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "io/read.h"
+#include "subdivide/subdivide.h"
+
+namespace CLI {  // NOLINT(readability-identifier-naming): CLI11 has named it
+class App;
+}
+
+namespace whittle {
+
+struct Limits {
+  ReadLimits reading;
+  size_t cells = SubdivideSettings{}.max_cells;
+};
+
+/// --limit, which may be given again for another name. That of the memory is taken at once.
+void add_limit_option(CLI::App& app, Limits& limits);
+
+/// From here on this process has no more memory than that, whatever it is for: std::bad_alloc. The
+/// system counts (RLIMIT_DATA). Not under the sanitizers, which take terabytes for themselves.
+void limit_memory(uint64_t bytes);
+
+/// What the machine has.
+uint64_t physical_memory();
+
+/// That there is no more memory, and which limit it is that ended it.
+std::string out_of_memory();
+
+}  // namespace whittle
