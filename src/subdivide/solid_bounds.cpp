@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <queue>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "base/workers.h"
-#include "subdivide/linear_program.h"
 #include "subdivide/simplify.h"
+#include "subdivide/tangents.h"
 
 namespace whittle {
 namespace {
@@ -21,31 +22,53 @@ constexpr size_t kMostTerms = 64;
 constexpr uint32_t kExpandAll = 64;
 /// Tokens that one search may classify: a number, and some passes over the formula.
 constexpr size_t kMostTokens = size_t(1) << 22, kMostPasses = 32;
+/// Where a cell is split: not in the middle, where symmetrical models have faces, which then are in
+/// both halves.
+constexpr double kSplitShare = 0.483;
 /// A polytope that cannot hold a ball of this radius, as a share of the accuracy, is nothing: flat
 /// leftovers, points where surfaces touch. A tenth of the tolerance, which is what material must be
 /// thick: texts of six digits leave such slivers.
 constexpr double kNoVolume = 0.1;
-/// Half-gradients shorter than this say nothing about where the surface is.
-constexpr double kFlatGradient = 1e-6;
 
 struct Farthest {
   double reach = -kInfinity;  ///< along the direction; -infinity: nothing is there
   bool exact = true;
 };
 
+/// The linear program of one polytope, with all its planes and the cell's sides moved in by a
+/// margin.
+class Program {
+ public:
+  Program(std::span<const Constraint> planes, Vec3 objective, Vec3 half)
+      : planes_(planes), objective_(objective), half_(half) {}
+
+  std::optional<Vec3> solve(double margin) const {
+    moved_.assign(planes_.begin(), planes_.end());
+    for (Constraint& plane : moved_) plane.d -= margin;
+    return farthest_point(objective_, moved_, half_ - Vec3{margin, margin, margin});
+  }
+
+ private:
+  std::span<const Constraint> planes_;
+  Vec3 objective_, half_;
+  mutable std::vector<Constraint> moved_;
+};
+
 /// The search in one direction, +axis or -axis.
 class Search {
  public:
   Search(const Scene& scene, int axis, int sign, double accuracy)
-      : scene_(scene), axis_(axis), sign_(sign), accuracy_(accuracy), simplifier_(scene, 0) {}
+      : scene_(scene), axis_(axis), sign_(sign), accuracy_(accuracy), simplifier_(scene, 0) {
+    objective_[axis] = sign;
+  }
 
   Farthest run(const Box& start, size_t most_cells) {
     open_child(scene_.formula, start);
     const size_t most_tokens = kMostTokens + kMostPasses * scene_.formula.size();
     for (size_t cells = 0; !open_.empty(); ++cells) {
-      // Moved out of a queue that gives const access only; it is popped at once.
-      Cell cell = std::move(const_cast<Cell&>(open_.top()));
-      open_.pop();
+      std::ranges::pop_heap(open_, comes_later);
+      Cell cell = std::move(open_.back());
+      open_.pop_back();
       if (cell.reach <= best_ + accuracy_) break;
       if (cells == most_cells || tokens_ > most_tokens) return {cell.reach, false};
       look_at(std::move(cell));
@@ -60,11 +83,10 @@ class Search {
     uint64_t order;  ///< of those that reach equally far, the newest comes first: depth first
     Box box;
     Formula formula;
-
-    bool operator<(const Cell& b) const {
-      return reach != b.reach ? reach < b.reach : order < b.order;
-    }
   };
+  static bool comes_later(const Cell& a, const Cell& b) {
+    return a.reach != b.reach ? a.reach < b.reach : a.order < b.order;
+  }
   /// One polytope of a union: literals that must all hold.
   struct Term {
     std::vector<Literal> literals;
@@ -83,7 +105,8 @@ class Search {
     const Truth truth = simplifier_.simplify(around, box, expand_all, formula);
     if (truth == Truth::kTrue) best_ = std::max(best_, reach_of(box));
     if (truth != Truth::kVaries) return;
-    open_.push({reach_of(box), order_++, box, std::move(formula)});
+    open_.push_back({reach_of(box), order_++, box, std::move(formula)});
+    std::ranges::push_heap(open_, comes_later);
   }
 
   void look_at(Cell cell) {
@@ -114,9 +137,10 @@ class Search {
       best_ = std::max(best_, reach_of(cell.box));
       return;
     }
-    const double middle = cell.box.center()[split_axis];
+    const double split =
+        cell.box.lo[split_axis] + kSplitShare * (cell.box.hi[split_axis] - cell.box.lo[split_axis]);
     Box low = cell.box, high = cell.box;
-    low.hi[split_axis] = high.lo[split_axis] = middle;
+    low.hi[split_axis] = high.lo[split_axis] = split;
     open_child(cell.formula, low);
     open_child(cell.formula, high);
   }
@@ -207,73 +231,70 @@ class Search {
 
   double reach_of_term(const Cell& cell, const std::vector<Literal>& literals) {
     const Vec3 center = cell.box.center(), half = cell.box.size() * 0.5;
-    Vec3 objective{};
-    objective[axis_] = sign_;
+    tangents_.clear();
     planes_.clear();
     bool all_flat = true;
-    Vec3 inward{};
     for (const Literal literal : literals) {
       all_flat = all_flat && scene_.half_spaces[literal >> 1].is_plane();
-      const std::optional<Constraint> plane = tangent_plane(literal, center, half);
-      if (!plane) continue;
-      planes_.push_back(*plane);
-      inward -= plane->n;
+      const std::optional<Tangent> surface = tangent(scene_, literal, center);
+      if (!surface) continue;
+      tangents_.push_back(*surface);
+      planes_.push_back(outer_plane(*surface, half));
     }
-    const auto program = [&](double margin) {
-      const Vec3 inner = half - Vec3{margin, margin, margin};
-      for (Constraint& plane : planes_) plane.d -= margin;
-      return farthest_point(objective, planes_, inner);
-    };
-    const std::optional<Vec3> farthest = program(0);
+    Program program(planes_, objective_, half);
+    const std::optional<Vec3> farthest = program.solve(0);
     if (!farthest) return -kInfinity;
-    const Vec3 p = center + *farthest;
-    const double reach = reach_of(p);
+    double reach = reach_of(center + *farthest);
     if (reach <= best_ + accuracy_) return reach;
-    const double margin = std::min(kNoVolume * accuracy_, 0.1 * min_component(half));
-    if (!program(margin)) return -kInfinity;
+    if (!all_flat) {
+      reach = std::min(reach, reach_of(center) + combined_reach_at(*farthest, half));
+      if (reach <= best_ + accuracy_) return reach;
+    }
+    if (!program.solve(std::min(kNoVolume * accuracy_, 0.1 * min_component(half))))
+      return -kInfinity;
     // A polytope is convex: with a ball in it, all of it is solid.
     if (all_flat)
       best_ = std::max(best_, reach);
     else
-      look_for_solid(cell, p, inward);
+      look_for_solid(cell, program, reach);
     return reach;
   }
 
-  /// The tangent plane of the literal's surface in the middle of a cell, about which it is
-  /// relative, moved out by as much as the surface bends in the cell: it holds all that the literal
-  /// does there. None if the surface has no direction there.
-  std::optional<Constraint> tangent_plane(Literal literal, Vec3 center, Vec3 half) const {
-    using K = Kernels<double>;
-    const HalfSpace& h = scene_.half_spaces[literal >> 1];
-    const Vec3 q = center - h.center;
-    const double side = literal & 1 ? -1 : 1;
-    const auto gradient = K::quadric_half_gradient(h.f, q);
-    const Vec3 n = Vec3{gradient.x, gradient.y, gradient.z} * (2 * side);
-    const double steepness = length(n);
-    if (!(steepness > kFlatGradient)) return std::nullopt;
-    const Vec3 a = h.f.diag * side, mixed = abs(h.f.off);
-    double bend =
-        -2 * (mixed.x * half.y * half.z + mixed.y * half.x * half.z + mixed.z * half.x * half.y);
-    for (int k = 0; k < 3; ++k) bend += std::min(a[k], 0.0) * half[k] * half[k];
-    const double value = side * K::quadric_value(h.f, q);
-    return Constraint{n / steepness, -(value + bend) / steepness};
+  /// The bound by sums of the surfaces nearest to the polytope's farthest point.
+  double combined_reach_at(Vec3 farthest, Vec3 half) {
+    constexpr size_t kMostNear = 4;
+    near_.clear();
+    for (size_t i = 0; i < planes_.size(); ++i)
+      near_.push_back({planes_[i].d - dot(planes_[i].n, farthest), &tangents_[i]});
+    const size_t count = std::min(near_.size(), kMostNear);
+    std::ranges::partial_sort(near_, near_.begin() + std::ptrdiff_t(count));
+    double reach = kInfinity;
+    const auto with = [&](std::initializer_list<const Tangent*> some) {
+      reach = std::min(reach, combined_reach({some.begin(), some.size()}, objective_, half));
+    };
+    for (size_t i = 0; i < count; ++i) {
+      with({near_[i].second});
+      for (size_t j = 0; j < i; ++j) {
+        with({near_[i].second, near_[j].second});
+        for (size_t k = 0; k < j; ++k) with({near_[i].second, near_[j].second, near_[k].second});
+      }
+    }
+    return reach;
   }
 
-  /// Tries points behind `p`, which may be just outside of the solid: straight back, and into the
-  /// wedge between the surfaces.
-  void look_for_solid(const Cell& cell, Vec3 p, Vec3 inward) {
-    Vec3 back{};
-    back[axis_] = -sign_;
-    const double room = reach_of(p) - best_;
-    for (double step = accuracy_ / 4; step < room; step *= 4) {
-      for (const Vec3 way : {back, normalize(inward)}) {
-        const Vec3 q = max(cell.box.lo, min(p + way * step, cell.box.hi));
-        if (reach_of(q) <= best_) continue;
-        Formula ignored;
-        tokens_ += cell.formula.size();
-        if (simplifier_.simplify(cell.formula, {q, q}, true, ignored) == Truth::kTrue)
-          best_ = reach_of(q);
-      }
+  /// Tries the farthest points of ever smaller polytopes: curved surfaces may leave the first ones
+  /// outside of the solid.
+  void look_for_solid(const Cell& cell, const Program& program, double reach) {
+    const double room = std::min(reach - best_, min_component(cell.box.size()) / 2);
+    for (double margin = accuracy_ / 4; margin < room; margin *= 4) {
+      const std::optional<Vec3> farthest = program.solve(margin);
+      if (!farthest) return;
+      const Vec3 q = cell.box.center() + *farthest;
+      if (reach_of(q) <= best_) return;
+      Formula ignored;
+      tokens_ += cell.formula.size();
+      if (simplifier_.simplify(cell.formula, {q, q}, true, ignored) == Truth::kTrue)
+        best_ = reach_of(q);
     }
   }
 
@@ -281,19 +302,22 @@ class Search {
 
   const Scene& scene_;
   int axis_, sign_;
+  Vec3 objective_{};
   double accuracy_;
   Simplifier simplifier_;
-  std::priority_queue<Cell> open_;
+  std::vector<Cell> open_;  ///< a heap: the cell that reaches farthest is in front
   uint64_t order_ = 0;
   size_t tokens_ = 0;
-  double best_ = -kInfinity;        ///< how far the solid surely reaches
-  std::vector<Constraint> planes_;  ///< scratch
+  double best_ = -kInfinity;  ///< how far the solid surely reaches
+  // Scratch.
+  std::vector<Tangent> tangents_;
+  std::vector<Constraint> planes_;
+  std::vector<std::pair<double, const Tangent*>> near_;  ///< with the distance
 };
 
-/// The solid's box within `start`, local.
-SolidBounds search_all(const Scene& scene, const Box& start, size_t most_cells,
+/// The solid's box within `start`, local, each side wrong by at most `accuracy`.
+SolidBounds search_all(const Scene& scene, const Box& start, double accuracy, size_t most_cells,
                        const Workers& workers) {
-  const double accuracy = kBoundsAccuracy * max_component(start.size());
   std::array<Farthest, 6> found;
   workers.for_parts(found.size(), 1, [&](size_t first, size_t last, size_t) {
     for (size_t i = first; i < last; ++i)
@@ -320,8 +344,9 @@ SolidBounds solid_bounds(const Scene& scene, int threads, size_t most_cells) {
   constexpr int kMostRounds = 4;
   constexpr double kMuchSmaller = 0.25;
   for (int round = 0; round < kMostRounds; ++round) {
-    const double edge = max_component(start.size()), accuracy = kBoundsAccuracy * edge;
-    const SolidBounds found = search_all(scene, start, most_cells, workers);
+    const double edge = max_component(start.size());
+    const double accuracy = kBoundsAccuracy * kMuchSmaller * edge;
+    const SolidBounds found = search_all(scene, start, accuracy, most_cells, workers);
     if (found.box.is_empty() && round > 0) break;
     result = found;
     if (found.box.is_empty()) return result;
