@@ -62,15 +62,20 @@ bool is_certain(const Looks& looks, Vec3 eye) {
   return true;
 }
 
-/// Does the hit's own ray only touch surfaces that turn away beside that answer? Which of them it
-/// meets there, or none, is a matter of rounding, and where it does the other looks cannot tell.
-bool touches(const Hit& hit, const Looks& looks, const Hit& answer, const Ray& answer_ray) {
+/// Does the hit's own ray only touch what that answer is a part of, which other looks miss? Where a
+/// smooth surface turns away, which of those there the ray meets is a matter of rounding; at a
+/// corner or an edge, which of the facets that meet there. The other looks need not see it.
+bool touches(const Hit& hit, const Looks& looks, const Hit& answer, const Ray& answer_ray,
+             Vec3 eye) {
   const bool some_miss = std::any_of(looks.hits.begin(), looks.hits.end(),
                                      [&](const Hit& other) { return other.id != answer.id; });
+  if (!some_miss || !hit.hit() || !answer.hit()) return false;
+  const bool at_same_point = std::fabs(double(hit.distance) - double(answer.distance)) <=
+                             kDistanceAgreement * length(point_of(answer_ray, answer) - eye);
   const double to_silhouette = std::fabs(dot(to_double(answer.normal), answer_ray.direction));
-  return some_miss && hit.hit() && answer.hit() &&
-         std::fabs(dot(to_double(hit.normal), looks.rays[0].direction)) <= kNormalAgreement &&
-         normal_difference(hit.normal, answer.normal) <= kNormalAgreement + 1.5 * to_silhouette;
+  return (at_same_point && hit.id == answer.id) ||
+         (std::fabs(dot(to_double(hit.normal), looks.rays[0].direction)) <= kNormalAgreement &&
+          normal_difference(hit.normal, answer.normal) <= kNormalAgreement + 1.5 * to_silhouette);
 }
 
 /// Is `hit` the oracle's answer number `i`, allowing for what the agreement.h constants say, and
@@ -79,7 +84,7 @@ bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double across,
              const AcceptsId& accepts) {
   const Hit& answer = looks.hits[size_t(i)];
   const Ray& ray = looks.rays[size_t(i)];
-  if (touches(hit, looks, answer, ray)) return true;
+  if (touches(hit, looks, answer, ray, eye)) return true;
   if (hit.hit() != answer.hit() || !accepts(ray, answer, hit.id)) return false;
   if (!hit.hit()) return !std::isfinite(hit.distance);
 
