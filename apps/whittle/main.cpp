@@ -1,6 +1,7 @@
 // whittle: the program. The first argument names a command; without one, it renders.
 #include <unistd.h>
 
+#include <atomic>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -50,6 +51,9 @@ int run_guarded(Arguments arguments) {
 
 /// For what no one can catch: a thread that oneTBB cannot start ends the program from within it.
 [[noreturn]] void end_clearly() {
+  // Several threads may get here at once; the first one speaks for all.
+  static std::atomic_flag is_ending;
+  while (is_ending.test_and_set()) ::pause();
   int code = int(ErrorKind::kMachine);
   try {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);

@@ -38,8 +38,10 @@ HalfSpaceTable::Fingerprint HalfSpaceTable::fingerprint(const HalfSpace& h,
       {0.413, -0.287, 0.619}, {-0.531, 0.347, 0.271}, {0.179, 0.683, -0.443}};
   const double unit = h.is_plane() ? radius_ : curvature(h.f) * radius_ * radius_;
   Fingerprint r;
+  // A model of 1e-320 overflows here: all that cannot be told apart any more goes to one place.
+  const auto bounded = [](double x) { return std::fabs(x) < 1e3 ? x : 0; };
   for (int i = 0; i < 3; ++i)
-    r.value[i] = std::asinh(K::quadric_value(h.f, kProbes[i] * radius_ - h.center) / unit);
+    r.value[i] = bounded(std::asinh(K::quadric_value(h.f, kProbes[i] * radius_ - h.center) / unit));
   const double size = std::min({reach.width, reach.radius, radius_});
   r.slack = size > 0 ? 16 * reach.tolerance / size : 0;
   return r;

@@ -293,6 +293,13 @@ Box view_region(const Bounds& bounds) {
                         : Box{box.center() - all(half), box.center() + all(half)};
 }
 
+double together(const Box& region) {
+  constexpr double kFiveRoundings = 1e-15;
+  if (region.is_empty()) return 0;
+  return kFiveRoundings *
+         (max_component(region.size()) + max_component(max(abs(region.lo), abs(region.hi))));
+}
+
 std::vector<std::string> transform_warnings(const Model& model) {
   std::vector<std::string> warnings;
   for (const Node& node : model.nodes) {

@@ -65,10 +65,11 @@ inline constexpr double kRelativeTolerance = 2e-6;
 Box view_region(const Bounds& bounds);
 inline constexpr double kUnboundedReach = 1000;
 
-/// Crossings of a ray closer together than this share of the region's longest edge happen together:
-/// rounding cannot tell which comes first. So a curved wall that touches a flat one along a line
-/// has one owner there (the tie rules of docs/conventions.md).
-inline constexpr double kTogether = 1e-13;
+/// Crossings of a ray closer together than this happen together: rounding cannot tell which comes
+/// first. So a curved wall that touches a flat one along a line has one owner there (the tie rules
+/// of docs/conventions.md). About five roundings of numbers as large as the region (world space) is
+/// and as its coordinates are; the parts of a model are many times larger.
+double together(const Box& region);
 
 /// Warnings about transforms that flatten or are not finite, as full messages.
 std::vector<std::string> transform_warnings(const Model& model);

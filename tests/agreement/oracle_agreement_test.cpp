@@ -2,6 +2,8 @@
 // caught.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/adapted_tracer.h"
 #include "support/agreement.h"
 #include "support/random_tree.h"
@@ -199,6 +201,28 @@ TEST(Agreement, ARayThatTouchesMayHitOrMiss) {
   EXPECT_EQ(unmatched({1, 0, 0}), 0);
   EXPECT_EQ(unmatched({0, 1, 0}), 1) << "another place of the sphere";
   EXPECT_EQ(unmatched({0.98f, 0, 0.199f}), 1) << "no ray that touches";
+}
+
+TEST(Agreement, ACornerMayShowAnyOfItsFacets) {
+  const Model model = model_of(
+      "polyhedron(points = [[1,0,0],[-1,0,0],[0,2,0],[0,-2,0],[0,0,1],[0,0,-1]], faces = "
+      "[[0,4,2],[2,4,1],[1,4,3],[3,4,0],[2,5,0],[1,5,2],[3,5,1],[0,5,3]]);");
+  const auto oracle = make_oracle_tracer(model);
+  const Camera camera = camera_along({1, 0, 9}, {0, 0, -1});
+  const auto unmatched = [&](float distance) {
+    const auto inwards = [](Camera moved) {
+      moved.eye.x -= 0.01;
+      return moved;
+    };
+    AdaptedTracer corner(*oracle, inwards, [&](const Hit&) {
+      return Hit{distance, 1, {2 / 3.0f, 1 / 3.0f, -2 / 3.0f}};
+    });
+    const AgreementReport report = check_agreement(model, corner, *oracle, camera);
+    EXPECT_EQ(report.ambiguous, 1);
+    return report.ambiguous_unmatched;
+  };
+  EXPECT_EQ(unmatched(9), 0);
+  EXPECT_EQ(unmatched(8.99f), 1) << "not at the corner";
 }
 
 TEST(Agreement, DifferencesAreFoundWithoutLookingEverywhere) {

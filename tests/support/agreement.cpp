@@ -61,14 +61,19 @@ bool is_certain(const Looks& looks, Vec3 eye) {
   return true;
 }
 
+/// Do some looks miss what that answer is a part of?
+bool some_miss(const Looks& looks, const Hit& answer) {
+  return std::any_of(looks.hits.begin(), looks.hits.end(),
+                     [&](const Hit& other) { return other.id != answer.id; });
+}
+
 /// Does the hit's own ray only touch surfaces that turn away beside that answer? Which of them it
 /// meets there, or none, is a matter of rounding, and where it does the other looks cannot tell.
+/// `touch`: sine of the angle between ray and surface below which it only touches.
 bool touches(const Hit& hit, const Looks& looks, const Hit& answer, const Ray& answer_ray,
              double touch) {
-  const bool some_miss = std::any_of(looks.hits.begin(), looks.hits.end(),
-                                     [&](const Hit& other) { return other.id != answer.id; });
   const double to_silhouette = std::fabs(dot(to_double(answer.normal), answer_ray.direction));
-  return some_miss && hit.hit() && answer.hit() &&
+  return some_miss(looks, answer) && hit.hit() && answer.hit() &&
          std::fabs(dot(to_double(hit.normal), looks.rays[0].direction)) <= touch &&
          normal_difference(hit.normal, answer.normal) <= kNormalAgreement + 1.5 * to_silhouette;
 }
@@ -89,7 +94,11 @@ bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double across,
   for (const Hit& other : looks.hits)
     if (other.id == answer.id)
       normal_spread = std::max(normal_spread, normal_difference(other.normal, answer.normal));
-  if (!(normal_difference(hit.normal, answer.normal) <= kNormalAgreement + normal_spread))
+  // At a corner that other looks miss, any facet that meets there may be seen; none of the looks
+  // need see it.
+  const bool at_corner = hit.id == answer.id && some_miss(looks, answer);
+  if (!at_corner &&
+      !(normal_difference(hit.normal, answer.normal) <= kNormalAgreement + normal_spread))
     return false;
 
   double nearest = double(answer.distance), farthest = nearest;

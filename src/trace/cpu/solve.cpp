@@ -17,7 +17,7 @@ using K = Kernels<double>;
 LeafSolver::LeafSolver(const Scene& scene, const CellTree& tree)
     : scene_(scene),
       tree_(tree),
-      together_(scene.region.is_empty() ? 0 : kTogether * max_component(scene.region.size())) {}
+      together_(together({scene.region.lo + scene.origin, scene.region.hi + scene.origin})) {}
 
 void LeafSolver::add_crossing(double t, uint32_t literal) {
   // Insertion keeps the list sorted; it is short, and equal times stay in the literals' order.

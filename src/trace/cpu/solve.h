@@ -46,9 +46,8 @@ class LeafSolver {
 
   /// Finds the first t in (t0, t1] at which the solid in this leaf changes from what `inside` says,
   /// or t0 if it differs there already. Otherwise false, and `inside` tells the value at t1.
-  /// Unknown becomes known at t0 and is no change. Crossings at equal t, or nearly
-  /// so (kTogether), happen together. `on_ray`
-  /// has an entry for every literal of the leaf.
+  /// Unknown becomes known at t0 and is no change. Crossings at equal t, or nearly so (together()),
+  /// happen together. `on_ray` has an entry for every literal of the leaf.
   bool first_change(CellKind kind, const Leaf& leaf, std::span<const LiteralOnRay> on_ray,
                     const LocalRay& ray, double t0, double t1, Inside& inside, Change& change);
 

@@ -35,7 +35,7 @@ class OracleTracer final : public Tracer {
       : instances_(instances(model)),
         tree_(make_boolean_tree(model)),
         bounds_(bounds(model)),
-        region_edge_(bounds_.box.is_empty() ? 0 : max_component(view_region(bounds_).size())),
+        together_(together(view_region(bounds_))),
         surfaces_(name_surfaces(model, instances_)),
         workers_(threads) {
     for (uint32_t leaf = 0; leaf < instances_.size(); ++leaf) {
@@ -103,11 +103,11 @@ class OracleTracer final : public Tracer {
       // Surfaces that are one are crossed at one t; others may be but for rounding, which grows
       // with the eye's distance.
       const double t = crossings[begin].t;
-      const double together = t + kTogether * (region_edge_ + std::fabs(t));
+      const double last = t + together_ + 1e-15 * std::fabs(t);
       if (t > end) break;
       state.begin_step();
       size_t group_end = begin;
-      for (; group_end < crossings.size() && crossings[group_end].t <= together; ++group_end)
+      for (; group_end < crossings.size() && crossings[group_end].t <= last; ++group_end)
         state.flip(crossings[group_end].leaf);
       if (state.has_changed() && t > start) {
         const uint32_t owner = state.owner();
@@ -129,7 +129,7 @@ class OracleTracer final : public Tracer {
   std::vector<Instance> instances_;
   BooleanTree tree_;
   Bounds bounds_;
-  double region_edge_;
+  double together_;
   Surfaces surfaces_;  ///< of those instances that are not empty
   Workers workers_;
   std::vector<uint32_t> ids_;     ///< of the instances
