@@ -71,7 +71,7 @@ std::optional<int> parse(CLI::App& app, Arguments arguments) {
 void add_loading_options(CLI::App& app, Loading& loading) {
   OptionGroup group(app, "Reading");
   group.add_choice("--curves", curves_choices(), "kind of curves",
-                   "{}; auto: facets where $fn asks for them",
+                   "{}; auto: facets where $fn asks\nfor them, and in style openscad",
                    [&](Curves curves) { loading.curves = curves; });
   group.add_choice("--matrices", matrices_choices(), "kind of matrices",
                    "{}; polished: rotations printed\nwith six digits are rotations again",

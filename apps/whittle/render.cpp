@@ -156,6 +156,9 @@ Status render(RenderArguments& a) {
   }
   if (!a.loading.quiet) say_without_effect(a.without_effect);
 
+  // What equals OpenSCAD's picture has OpenSCAD's facets.
+  if (a.shading.style == Style::kOpenscad && a.loading.curves == Curves::kAuto)
+    a.loading.curves = Curves::kFacets;
   const Result<Read> read = load(a.file, a.loading);
   if (!read) return read.error();
   const Model& model = read->model;

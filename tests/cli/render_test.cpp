@@ -300,8 +300,9 @@ TEST_F(Render, StatisticsTellWhatWasDone) {
 
 TEST_F(Render, CurvesAreChosen) {
   write("ball.csg", "sphere(r = 10, $fn = 4);");
-  const auto normals_of = [&](const char* curves) {
-    good({"ball.csg", "-o", "x.exr", "--curves", curves, "--imgsize", "64,64"});
+  const auto normals_of = [&](const char* curves, const char* file = "ball.csg",
+                              const char* style = "studio") {
+    good({file, "-o", "x.exr", "--curves", curves, "--style", style, "--imgsize", "64,64"});
     std::set<std::tuple<float, float, float>> normals;
     const Frame frame = exr("x.exr");
     for (const Hit& hit : frame.hits) {
@@ -312,6 +313,10 @@ TEST_F(Render, CurvesAreChosen) {
   EXPECT_LT(normals_of("auto"), 10u);
   EXPECT_LT(normals_of("facets"), 10u);
   EXPECT_GT(normals_of("smooth"), 100u);
+  write("round.csg", "sphere(r = 1);");  // five meridians, by OpenSCAD's $fa and $fs
+  EXPECT_GT(normals_of("auto", "round.csg"), 100u);
+  EXPECT_LT(normals_of("auto", "round.csg", "openscad"), 20u);
+  EXPECT_GT(normals_of("smooth", "round.csg", "openscad"), 100u);
 }
 
 }  // namespace

@@ -92,8 +92,7 @@ Camera look_parallel(Vec3 eye, Vec3 target, double tall, int width, int height) 
   return camera;
 }
 
-PictureCounts expect_known(const std::string& text, const Camera& camera, const Answer& answer,
-                           bool with_oracle) {
+PictureCounts expect_known(const std::string& text, const Camera& camera, const Answer& answer) {
   const Model model = model_of(text);
   const Exact reach = largest_length(bounds(model).box, camera);
   const size_t pixels = size_t(camera.width) * size_t(camera.height);
@@ -127,7 +126,7 @@ PictureCounts expect_known(const std::string& text, const Camera& camera, const 
   // Nothing can agree to within what doubles of the model's own size do not resolve.
   Exact nearest = kExactInfinity;
   for (const Looks& looks : known) nearest = std::min(nearest, looks[0].distance);
-  const bool comparable = with_oracle && kSideways * reach <= Exact(kDistanceAgreement) * nearest;
+  const bool comparable = kSideways * reach <= Exact(kDistanceAgreement) * nearest;
   const auto oracle = make_oracle_tracer(model);
   for (const uint32_t leaf_size : {1u, 2u, 6u, 16u}) {
     SubdivideSettings settings;

@@ -28,11 +28,10 @@ struct PictureCounts {
 };
 
 /// Renders `text` with the cpu backend at leaf sizes 1, 2, 6 and 16. Every pixel must show what
-/// `answer` says, to the accuracy above, and no two cells may disagree. If asked, the oracle must
+/// `answer` says, to the accuracy above, and no two cells may disagree. The oracle must
 /// agree with leaf size 6 (but on parts that are so small in their model that agreement.h asks for
 /// more than doubles can tell). What does not hold is reported to gtest. Counts are those of one
 /// picture.
-PictureCounts expect_known(const std::string& text, const Camera& camera, const Answer& answer,
-                           bool with_oracle = true);
+PictureCounts expect_known(const std::string& text, const Camera& camera, const Answer& answer);
 
 }  // namespace whittle

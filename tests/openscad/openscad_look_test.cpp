@@ -66,7 +66,7 @@ void look_at(const std::string& file, const std::string& options, Look& look) {
                       "' --render=force -o '" +
                       theirs + "' " + options + " '" + file + "'",
                   log));
-  ASSERT_TRUE(run("'" WHITTLE_PROGRAM "' -q --style openscad --curves facets -o '" + ours +
+  ASSERT_TRUE(run("'" WHITTLE_PROGRAM "' -q --style openscad -o '" + ours +
                       "' -o '" + facts + "' " + options + " '" + file + "'",
                   log));
   Result<Picture> their_picture = read_png(theirs), our_picture = read_png(ours);

@@ -84,6 +84,14 @@ class OracleTracer final : public Tracer {
       end = region.t1;
     }
 
+    // An eye on a surface has passed it (docs/conventions.md); rounding may put it a little before,
+    // across the surface, which along a flat ray is farther.
+    const auto is_passed = [&](const Crossing& c) {
+      return c.t <= start ||
+             (c.t - start <= 1e6 * together_ &&
+              (c.t - start) * std::fabs(dot(c.normal, ray.direction)) <= 10 * together_);
+    };
+
     BooleanState& state = scratch.state;
     std::vector<Crossing>& crossings = scratch.crossings;
     crossings.clear();
@@ -107,9 +115,9 @@ class OracleTracer final : public Tracer {
       if (t > end) break;
       state.begin_step();
       size_t group_end = begin;
-      for (; group_end < crossings.size() && crossings[group_end].t <= last; ++group_end)
-        state.flip(crossings[group_end].leaf);
-      if (state.has_changed() && t > start) {
+      do state.flip(crossings[group_end].leaf);
+      while (++group_end < crossings.size() && crossings[group_end].t <= last);
+      if (state.has_changed() && !is_passed(crossings[begin])) {
         const uint32_t owner = state.owner();
         // A leaf that changed has one crossing here.
         const auto crossing = std::find_if(crossings.begin() + std::ptrdiff_t(begin),
