@@ -70,7 +70,9 @@ bool touches(const Hit& hit, const Looks& looks, const Hit& answer, const Ray& a
   const bool some_miss = std::any_of(looks.hits.begin(), looks.hits.end(),
                                      [&](const Hit& other) { return other.id != answer.id; });
   if (!some_miss || !hit.hit() || !answer.hit()) return false;
-  const bool at_same_point = std::fabs(double(hit.distance) - double(answer.distance)) <=
+  // Where the answer's surface, gone on, meets the hit's ray: at a corner, the corner.
+  const double expected = predicted_distance(answer_ray, answer, looks.rays[0]);
+  const bool at_same_point = std::fabs(double(hit.distance) - expected) <=
                              kDistanceAgreement * length(point_of(answer_ray, answer) - eye);
   const double to_silhouette = std::fabs(dot(to_double(answer.normal), answer_ray.direction));
   return (at_same_point && hit.id == answer.id) ||
