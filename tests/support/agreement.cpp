@@ -114,6 +114,7 @@ bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double across,
   const double flatter =
       std::min(std::fabs(steepness), std::fabs(dot(to_double(hit.normal), ray.direction)));
   const double slack = kDistanceAgreement * length(point_of(ray, answer) - eye) +
+                       kOriginRounding * length(ray.origin) / std::fabs(steepness) +
                        (across > 0 ? across / flatter : 0);
   return double(hit.distance) >= nearest - slack && double(hit.distance) <= farthest + slack;
 }
