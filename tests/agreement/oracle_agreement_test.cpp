@@ -225,6 +225,23 @@ TEST(Agreement, ACornerMayShowAnyOfItsFacets) {
   EXPECT_EQ(unmatched(8.99f), 1) << "not at the corner";
 }
 
+TEST(Agreement, AnEyeFarFromTheOriginKnowsNoMoreThanItsOwnDigits) {
+  const Model model = model_of("halfspace(n = [1, 0, 0], d = 1e6);");
+  const auto oracle = make_oracle_tracer(model);
+  const Camera camera = camera_along({1e6 + 1e-6, 0, 0}, {-1, 0.1, 0});
+  const auto differs = [&](float by) {
+    AdaptedTracer subject(*oracle, {}, [&](Hit hit) {
+      hit.distance += by;
+      return hit;
+    });
+    const AgreementReport report = check_agreement(model, subject, *oracle, camera);
+    EXPECT_EQ(report.hits, 1);
+    return report.unexplained + report.ambiguous_unmatched;
+  };
+  EXPECT_EQ(differs(5e-10f), 0);
+  EXPECT_EQ(differs(1e-8f), 1);
+}
+
 TEST(Agreement, DifferencesAreFoundWithoutLookingEverywhere) {
   const Model model = model_of(kScene);
   const auto oracle = make_oracle_tracer(model);

@@ -110,8 +110,8 @@ bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double across,
     nearest = std::min(nearest, expected);
     farthest = std::max(farthest, expected);
   }
-  const double slack =
-      kDistanceAgreement * length(point_of(ray, answer) - eye) + across / std::fabs(steepness);
+  const double slack = kDistanceAgreement * length(point_of(ray, answer) - eye) +
+                       (kOriginRounding * length(ray.origin) + across) / std::fabs(steepness);
   return double(hit.distance) >= nearest - slack && double(hit.distance) <= farthest + slack;
 }
 

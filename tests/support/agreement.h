@@ -23,6 +23,10 @@ inline constexpr double kDisplacement = 1e-3;  ///< pixels, in x and in y
 /// the point from the eye. Beyond it, an answer may stray along the ray as far as the surface it
 /// lies on does over the five rays.
 inline constexpr double kDistanceAgreement = 1e-5;
+/// Nobody knows where a surface is better than where the ray starts: across the surface, this much
+/// of the start's distance from the world's origin is forgiven too, some 5 units in its last place.
+/// It matters where an eye far from the origin all but touches something.
+inline constexpr double kOriginRounding = 1e-15;
 /// Between normals, as a sine; beyond it, an answer may stray as far as the five answers do.
 inline constexpr double kNormalAgreement = 1e-3;
 /// Normals of a certain pixel's five answers differ by no more than this, as a sine.
