@@ -226,7 +226,7 @@ TEST(Agreement, ACornerMayShowAnyOfItsFacets) {
 }
 
 TEST(Agreement, AnEyeFarFromTheOriginKnowsNoMoreThanItsOwnDigits) {
-  const Model model = model_of("halfspace(n = [1, 0, 0], d = 1e6);");
+  const Model model = model_of("translate([999990, -5, -5]) cube(10);");
   const auto oracle = make_oracle_tracer(model);
   const Camera camera = camera_along({1e6 + 1e-6, 0, 0}, {-1, 0.1, 0});
   const auto differs = [&](float by) {

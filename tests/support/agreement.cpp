@@ -90,15 +90,19 @@ bool matches(const Hit& hit, const Looks& looks, int i, Vec3 eye, double across,
   if (!hit.hit()) return !std::isfinite(hit.distance);
 
   if (std::fabs(length(to_double(hit.normal)) - 1) > kNormalAgreement) return false;
+  // At a corner that other looks miss, any facet that meets there may be seen, and none of the
+  // looks need see it. The corner is where the facet beside it, gone on, meets the hit's ray.
+  const double at_corner = predicted_distance(ray, answer, looks.rays[0]);
+  if (hit.id == answer.id && some_miss(looks, answer) &&
+      std::fabs(double(hit.distance) - at_corner) <=
+          kDistanceAgreement * length(point_of(ray, answer) - eye))
+    return true;
+
   double normal_spread = 0;
   for (const Hit& other : looks.hits)
     if (other.id == answer.id)
       normal_spread = std::max(normal_spread, normal_difference(other.normal, answer.normal));
-  // At a corner that other looks miss, any facet that meets there may be seen; none of the looks
-  // need see it.
-  const bool at_corner = hit.id == answer.id && some_miss(looks, answer);
-  if (!at_corner &&
-      !(normal_difference(hit.normal, answer.normal) <= kNormalAgreement + normal_spread))
+  if (!(normal_difference(hit.normal, answer.normal) <= kNormalAgreement + normal_spread))
     return false;
 
   double nearest = double(answer.distance), farthest = nearest;
