@@ -66,8 +66,8 @@ void look_at(const std::string& file, const std::string& options, Look& look) {
                       "' --render=force -o '" +
                       theirs + "' " + options + " '" + file + "'",
                   log));
-  ASSERT_TRUE(run("'" WHITTLE_PROGRAM "' -q --style openscad -o '" + ours +
-                      "' -o '" + facts + "' " + options + " '" + file + "'",
+  ASSERT_TRUE(run("'" WHITTLE_PROGRAM "' -q --style openscad -o '" + ours + "' -o '" + facts +
+                      "' " + options + " '" + file + "'",
                   log));
   Result<Picture> their_picture = read_png(theirs), our_picture = read_png(ours);
   Result<Frame> frame = read_exr(facts);
