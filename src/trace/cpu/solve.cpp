@@ -128,8 +128,8 @@ bool LeafSolver::first_change(CellKind kind, const Leaf& leaf, std::span<const L
   for (size_t i = 0; i < crossings_.size();) {
     const size_t first = i;
     const double t = crossings_[i].t;
-    for (; i < crossings_.size() && crossings_[i].t <= t + together_; ++i)
-      flip(kind, literals, crossings_[i].literal);
+    do flip(kind, literals, crossings_[i++].literal);
+    while (i < crossings_.size() && crossings_[i].t <= t + together_);
     const bool after = value(kind, leaf, literals);
     if (after == solid) continue;
     const std::span<Crossing> group(&crossings_[first], i - first);
