@@ -239,6 +239,17 @@ TEST(Cpu, ProbesAndPicturesSeeTheSame) {
   EXPECT_TRUE(frame.at(30, 21).hit());
 }
 
+TEST(Cpu, ARayMayRunInAPlaneFromItsEyeOn) {
+  Traced half("halfspace(n = [0, 0, 1], d = 2);");
+  EXPECT_FALSE(half.hit({3, 0, 2}, {4, 0, 2}).hit()) << "as far as the region reaches";
+  Traced cube("cube(10, center = true);");
+  for (const double x : {0.0, 1.0, 5.0}) {
+    const Hit hit = cube.hit({x, 0, 5}, {9, 3, 5});
+    if (!hit.hit()) continue;
+    EXPECT_NEAR(hit.distance, (5 - x) / std::cos(std::atan2(3, 9 - x)), 1e-6);
+  }
+}
+
 TEST(Cpu, RaysThatPartTakeTheirOwnWay) {
   // Straight along an axis: the directions of neighbouring rays have all four pairs of signs.
   Traced model(

@@ -265,6 +265,10 @@ class Packet {
     if (!hn::AllFalse(D(), hn::Le(t0, at_eye_))) {
       start = end_at_eye(f, t0, start);
       end = end_at_eye(f, t1, end);
+      // A plane through the eye is not crossed again, and one that the ray runs in not at all: its
+      // side is that of the way's end.
+      const Bool in_plane = hn::And(f.a == set(0), is_at_eye(t0, start));
+      start.inside = hn::Or(hn::And(in_plane, end.inside), hn::AndNot(in_plane, start.inside));
     }
     // In and out again, or out and in: only if f turns back between, and goes beyond zero there.
     const Real bend = L::select(start.inside, set(0) - f.a, f.a);
@@ -287,11 +291,15 @@ class Packet {
     return {value, value <= set(0), f.a * (t - f.about) + f.h < set(0)};
   }
 
+  /// Is this end at the eye, and the eye on the half-space's surface?
+  Bool is_at_eye(Real t, const LaneEnd& end) const {
+    return hn::And(hn::Le(t, at_eye_), hn::Abs(end.value) <= set(kOnSurface * edge_));
+  }
+
   /// Who stands on a surface has passed it: there the side is that of the way just ahead, and not
   /// rounding's. Elsewhere nothing changes.
   LaneEnd end_at_eye(L::AlongRay f, Real t, LaneEnd end) const {
-    const Bool on_surface =
-        hn::And(hn::Le(t, at_eye_), hn::Abs(end.value) <= set(kOnSurface * edge_));
+    const Bool on_surface = is_at_eye(t, end);
     const Bool falls = f.a * (t - f.about + set(kAhead * edge_)) + f.h < set(0);
     const auto choose = [&](Bool there, Bool else_there) {
       return hn::Or(hn::And(on_surface, there), hn::AndNot(on_surface, else_there));
