@@ -87,7 +87,7 @@ TEST_F(LimitsOfFiles, CellsChangeNoPixel) {
   }
 }
 
-// A million copies of one cube, a thousand cylinders through one point: nothing that splitting
+// Many copies of one cube, a thousand cylinders through one point: nothing that splitting
 // space could part.
 TEST_F(LimitsOfFiles, WhatNoSplitPartsEndsInLittleMemory) {
   write("copies.csg", repeated("cube(1);", 200'000));
