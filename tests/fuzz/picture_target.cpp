@@ -31,11 +31,12 @@ Camera camera_of(const Model& model, int view) {
   return camera;
 }
 
-/// A model as small as the rounding of its own coordinates, as half-spaces that meet far away are,
-/// is noise: there is nothing to agree on.
+/// Where the tolerance is less than some hundred units in the last place of the coordinates, the
+/// eye's rounding decides between surfaces that the tolerance keeps apart: a model of a hundredth
+/// at 1e6, or half-spaces that meet far away. There is nothing to agree on.
 bool is_noise(const Bounds& b) {
   const Vec3 reach = max(abs(b.box.lo), abs(b.box.hi));
-  return !b.box.is_empty() && tolerance(b) < 1e-15 * max_component(reach);
+  return !b.box.is_empty() && tolerance(b) < 1e-13 * max_component(reach);
 }
 
 void check(std::span<const uint8_t> bytes) {
