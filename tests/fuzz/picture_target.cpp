@@ -13,7 +13,8 @@
 namespace whittle {
 namespace {
 
-constexpr int kEdge = 32;  ///< pixels
+constexpr int kEdge = 32;        ///< pixels
+constexpr int kAslantViews = 3;  ///< the standard ones
 
 /// The standard views, then three square to the axes, where rays run along faces and cells.
 Camera camera_of(const Model& model, int view) {
@@ -56,7 +57,10 @@ void check(std::span<const uint8_t> bytes) {
   const AgreementReport report =
       find_differences(model, *cpu.tracer, *oracle, camera_of(model, input.view));
   const auto disagreements = cpu.tracer->stats().disagreements;
-  if (report.unexplained == 0 && report.ambiguous_unmatched == 0 && disagreements == 0) return;
+  // Square to an axis a ray runs in faces and exactly through edges. What it touches there without
+  // entering, rounding decides, and no ray beside it need see the same: only certain pixels count.
+  const int unmatched = input.view < kAslantViews ? report.ambiguous_unmatched : 0;
+  if (report.unexplained == 0 && unmatched == 0 && disagreements == 0) return;
   require(false, "k = " + std::to_string(input.leaf_size) + ", view " + std::to_string(input.view) +
                      ": " + std::to_string(report.unexplained) + " unexplained, " +
                      std::to_string(report.ambiguous_unmatched) + " unmatched, " +
