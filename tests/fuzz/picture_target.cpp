@@ -37,9 +37,11 @@ Camera camera_of(const Model& model, int view) {
 
 /// Where the tolerance is less than some hundred units in the last place of the coordinates, the
 /// eye's rounding decides between surfaces that the tolerance keeps apart: a model of a hundredth
-/// at 1e6, or half-spaces that meet far away. There is nothing to agree on.
+/// at 1e6, or half-spaces that meet far away, or all whose feet are one point but for rounding.
+/// There is nothing to agree on.
 bool is_noise(const Bounds& b) {
   const Vec3 reach = max(abs(b.box.lo), abs(b.box.hi));
+  if (!b.bounded && max_component(reach) < 1e-12) return true;
   return !b.box.is_empty() && tolerance(b) < 1e-13 * max_component(reach);
 }
 
