@@ -38,7 +38,7 @@ class Flattener {
   Result<FlatCells> run() {
     flat_.region = tree_.region;
     for (const HalfSpace& h : scene_.half_spaces) add_half_space(h);
-    if (!tree_.region.is_empty()) add_cells();
+    if (tree_.root != nullptr) add_cells();
     if (too_large_) {
       return Error{ErrorKind::kMachine,
                    "a cell has more half-spaces than the vulkan backends take in one"};
@@ -95,26 +95,28 @@ class Flattener {
       Box box;
       uint32_t parent, side;  ///< whose child this becomes
     };
-    std::vector<Open> open{{&tree_.cells[0], tree_.region, kNoChild, 0}};
+    std::vector<Open> open{{tree_.root, tree_.region, kNoChild, 0}};
     const auto attach = [&](const Open& to, uint32_t child) {
       (to.parent == kNoChild ? flat_.root : flat_.nodes[to.parent].child[to.side]) = child;
     };
     while (!open.empty()) {
       const Open now = open.back();
       open.pop_back();
-      const Cell& cell = *now.cell;
-      if (cell.kind == CellKind::kNode) {
-        const uint32_t node = uint32_t(flat_.nodes.size());
-        flat_.nodes.push_back({cell.split, {kNoChild, kNoChild}, cell.axis});
+      const CellLink link = now.cell->link();
+      WHITTLE_CHECK(link.kind() != CellKind::kOpen);
+      if (link.kind() == CellKind::kNode) {
+        const double split = now.cell->split;
+        const auto node = uint32_t(flat_.nodes.size());
+        flat_.nodes.push_back({split, {kNoChild, kNoChild}, uint8_t(link.axis())});
         attach(now, node);
         for (uint32_t side = 0; side < 2; ++side) {
           Box box = now.box;
-          (side == 0 ? box.hi : box.lo)[cell.axis] = cell.split;
-          open.push_back({&tree_.cells[cell.index + side], box, node, side});
+          (side == 0 ? box.hi : box.lo)[link.axis()] = split;
+          open.push_back({link.children() + side, box, node, side});
         }
-      } else if (cell.kind >= CellKind::kConjunction) {
+      } else if (link.kind() >= CellKind::kConjunction) {
         attach(now, kCellBit | flat_.cell_count());
-        add_cell(now.box, cell.kind, tree_.leaves[cell.index]);
+        add_cell(now.box, link.kind(), link.leaf());
       }
     }
     prune();
@@ -135,7 +137,7 @@ class Flattener {
   void add_cell(const Box& box, CellKind kind, const Leaf& leaf) {
     if (leaf.literal_count > kMostLiterals) too_large_ = true;
     const auto first_literal = uint32_t(flat_.words.size());
-    for (const LeafLiteral& literal : literals_of(leaf))
+    for (const LeafLiteral& literal : leaf.literals())
       flat_.words.insert(flat_.words.end(), {literal.literal, literal.owner});
     add_owning_steps(leaf);
     std::array<uint32_t, 2> rule{};
@@ -153,19 +155,13 @@ class Flattener {
       default:
         shader_kind = kShaderProgram;
         rule[0] = uint32_t(flat_.words.size());
-        for (uint32_t i = 0; i < leaf.step_count; ++i) {
-          const Step& step = tree_.steps[leaf.first_step + i];
+        for (const Step& step : leaf.steps())
           flat_.words.insert(flat_.words.end(), {step.literal, step.on_true, step.on_false});
-        }
     }
     add_vector(flat_.cells, box.lo);
     add_vector(flat_.cells, box.hi);
     flat_.cells.insert(flat_.cells.end(),
                        {first_literal, shader_kind | leaf.literal_count << 2, rule[0], rule[1]});
-  }
-
-  std::span<const LeafLiteral> literals_of(const Leaf& leaf) const {
-    return {&tree_.literals[leaf.first_literal], leaf.literal_count};
   }
 
   /// The leaf's formula with group ends written out, so that no shader needs a stack of them.
@@ -181,7 +177,7 @@ class Flattener {
     for (uint32_t i = 0; i <= leaf.token_count; ++i) {
       for (; !ends.empty() && ends.back() == i; ends.pop_back()) add(kEnd, 0, 0);
       if (i == leaf.token_count) break;
-      const Token token = tree_.tokens[leaf.first_token + i];
+      const Token token = leaf.tokens()[i];
       if (token.is_pass()) continue;
       if (token.is_group()) {
         add(token.kind() == TokenKind::kAnd ? kBeginAnd : kBeginOr, 0, 0);
@@ -193,7 +189,7 @@ class Flattener {
       const Face& face = scene_.faces[token.payload()];
       const bool complement = bool(face.literal & 1) != token.negated();
       const uint32_t half_space = face.literal >> 1, owner = scene_.units[face.unit].id;
-      const std::span<const LeafLiteral> literals = literals_of(leaf);
+      const std::span<const LeafLiteral> literals = leaf.literals();
       uint32_t at = 0;
       while (at < literals.size() && literals[at].literal >> 1 != half_space) ++at;
       // A literal may itself stand for the complement.

@@ -67,7 +67,7 @@ TEST(FrontToBack, IsTheOrderOfEveryRayAndMissesNoCell) {
     const FlatCells flat = *flatten(scene, tree, true);
     const std::map<uint32_t, Box> boxes = boxes_of(flat);
     EXPECT_EQ(boxes.size(), flat.cell_count());
-    EXPECT_EQ(boxes.size(), tree.leaves.size());
+    EXPECT_EQ(boxes.size(), statistics_of(tree).leaf_count());
     for (const Camera& camera : cameras_for(model, 12, 9)) {
       const Vec3 eye = local_eye(scene, camera);
       std::vector<VisibleCell> visible;

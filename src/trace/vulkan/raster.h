@@ -57,7 +57,7 @@ std::string describe(const RasterDevice& device);
 /// All that the validation layer has complained about.
 std::vector<std::string> validation_messages(const RasterDevice& device);
 
-/// `scene` must outlive the tracer. A kMachine error if the device has no room for the cells.
+/// Precondition: all cells are refined (subdivide()). `scene` must outlive the tracer. A kMachine error if the device has no room for the cells.
 Result<std::unique_ptr<RasterTracer>> make_raster_tracer(std::shared_ptr<RasterDevice> device,
                                                          const Scene& scene, const CellTree& cells);
 

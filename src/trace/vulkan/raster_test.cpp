@@ -40,7 +40,7 @@ TEST(Raster, SaysWhatItDid) {
   const Camera camera = cameras_for(subject.model, 64, 48)[0];
   tracer->render(camera, {});
   EXPECT_TRUE(tracer->status());
-  EXPECT_EQ(tracer->stats().cells, subject.cells.leaves.size());
+  EXPECT_EQ(tracer->stats().cells, statistics_of(subject.cells).leaf_count());
   EXPECT_GT(tracer->stats().drawn, tracer->stats().cells / 2);
   EXPECT_LE(tracer->stats().drawn, tracer->stats().cells);
   EXPECT_GT(tracer->stats().draw_ms, 0);
