@@ -14,6 +14,10 @@ std::string describe(const RasterDevice&) {
   return {};
 }
 
+bool is_software(const RasterDevice&) {
+  return true;
+}
+
 std::vector<std::string> validation_messages(const RasterDevice&) {
   return {};
 }

@@ -432,6 +432,10 @@ std::string describe(const RasterDevice& device) {
   return info.name + ", " + info.driver + (device.doubles() ? ", double" : ", float");
 }
 
+bool is_software(const RasterDevice& device) {
+  return device.gpu().info().type == gpu::DeviceType::kSoftware;
+}
+
 std::vector<std::string> validation_messages(const RasterDevice& device) {
   return device.gpu().messages();
 }

@@ -54,10 +54,13 @@ class RasterDevice;
 Result<std::shared_ptr<RasterDevice>> open_raster_device(const RasterSettings& settings = {});
 /// Its name and driver, and what its shaders compute with.
 std::string describe(const RasterDevice& device);
+/// Whether it is the CPU that does its work.
+bool is_software(const RasterDevice& device);
 /// All that the validation layer has complained about.
 std::vector<std::string> validation_messages(const RasterDevice& device);
 
-/// Precondition: all cells are refined (subdivide()). `scene` must outlive the tracer. A kMachine error if the device has no room for the cells.
+/// Precondition: all cells are refined (subdivide()). `scene` must outlive the tracer. A kMachine
+/// error if the device has no room for the cells.
 Result<std::unique_ptr<RasterTracer>> make_raster_tracer(std::shared_ptr<RasterDevice> device,
                                                          const Scene& scene, const CellTree& cells);
 
