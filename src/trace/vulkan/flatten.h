@@ -47,8 +47,8 @@ struct FlatCells {
   uint32_t cell_count() const { return uint32_t(cells.size() / kCellWords); }
 };
 
-/// Precondition: all cells are refined. Cells that are empty, full or ignored have no surface and are left out. A kMachine error if a
-/// leaf is too large or nested too deeply for a shader.
+/// Precondition: all cells are refined. Cells that are empty, full or ignored have no surface and
+/// are left out. A kMachine error if a leaf is too large or nested too deeply for a shader.
 Result<FlatCells> flatten(const Scene& scene, const CellTree& tree, bool doubles);
 
 }  // namespace whittle
