@@ -60,6 +60,50 @@ class RasterAgreement : public testing::Test {
 };
 std::shared_ptr<RasterDevice> RasterAgreement::device;
 
+/// Makes its pictures of probes: of a coarse picture's pixels each is looked at in 4 x 4 places.
+class ProbingTracer final : public Tracer {
+ public:
+  static constexpr int kFiner = 4;
+  explicit ProbingTracer(Tracer& inner) : inner_(inner) {}
+  const char* name() const override { return "probing"; }
+  Frame render(const Camera& camera, const Progress&) override {
+    Frame frame(camera.width, camera.height);
+    Camera coarse = camera;
+    coarse.width /= kFiner, coarse.height /= kFiner;
+    std::vector<PixelPosition> places;
+    for (int y = 0; y < camera.height; ++y)
+      for (int x = 0; x < camera.width; ++x)
+        places.push_back({(float(x) + 0.5f) / kFiner, (float(y) + 0.5f) / kFiner});
+    inner_.probe(coarse, places, frame.hits);
+    return frame;
+  }
+  void probe(const Camera& camera, std::span<const PixelPosition> positions,
+             std::span<Hit> hits) override {
+    inner_.probe(camera, positions, hits);
+  }
+
+ private:
+  Tracer& inner_;
+};
+
+TEST_F(RasterAgreement, ProbesAnywhereInAPixel) {
+  int hits = 0;
+  for (const char* name : {"/gear.csg", "/cheese100.csg", "/bearing-housing.csg"}) {
+    const Result<Read> read = read_file(std::string(WHITTLE_EXAMPLES) + name);
+    ASSERT_TRUE(read) << read.error().message;
+    const auto oracle = make_oracle_tracer(read->model);
+    RasterSubject subject(device, read->model, leaf_size(6));
+    ProbingTracer probing(*subject.tracer);
+    for (const Camera& camera : cameras_for(read->model, 96, 72)) {
+      const AgreementReport report = find_differences(read->model, probing, *oracle, camera);
+      EXPECT_EQ(report.unexplained, 0) << report.first_difference;
+      EXPECT_EQ(report.ambiguous_unmatched, 0) << report.first_difference;
+      hits += report.hits;
+    }
+  }
+  EXPECT_GT(hits, 10000);
+}
+
 TEST_F(RasterAgreement, Zoo) {
   for (const ZooScene& scene : zoo()) {
     SCOPED_TRACE(scene.name);

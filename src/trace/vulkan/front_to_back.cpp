@@ -15,7 +15,7 @@ enum class Sight { kNone, kSome, kWide };
 class Frustum {
  public:
   Frustum(const Camera& camera, Vec3 eye, const PixelRect& tile, double margin)
-      : camera_(camera), eye_(eye) {
+      : camera_(camera), eye_(eye), grow_(margin * camera.units_per_pixel()) {
     const double s = camera.units_per_pixel();
     lo_x_ = (tile.x0 - margin - 0.5 * camera.width) * s;
     hi_x_ = (tile.x1 + margin - 0.5 * camera.width) * s;
@@ -24,12 +24,16 @@ class Frustum {
   }
 
   /// How the tile sees a box. kNone is a proof.
-  Sight look(const Box& box) const {
+  Sight look(Box box) const {
+    // As large as it is drawn: that may reach to the eye where the box itself does not.
+    box = {box.lo - eye_, box.hi - eye_};
+    const double grow = grow_ * (camera_.orthographic ? 1 : length(max(abs(box.lo), abs(box.hi))));
+    box = {box.lo - Vec3{grow, grow, grow}, box.hi + Vec3{grow, grow, grow}};
     // Bits: all corners left of, right of, below, above, and behind what is seen.
     unsigned beside = 31;
     bool wide = false;
     for (int i = 0; i < 8; ++i) {
-      const Vec3 p = box.corner(i) - eye_;
+      const Vec3 p = box.corner(i);
       const double ahead = camera_.orthographic ? 1 : dot(p, camera_.forward);
       const double x = dot(p, camera_.right), y = dot(p, camera_.up);
       beside &= unsigned(x < lo_x_ * ahead) | unsigned(x > hi_x_ * ahead) << 1 |
@@ -48,6 +52,7 @@ class Frustum {
 
   const Camera& camera_;
   Vec3 eye_;
+  double grow_;                       ///< at distance 1
   double lo_x_, hi_x_, lo_y_, hi_y_;  ///< of the tile, at distance 1
 };
 
