@@ -8,16 +8,10 @@ find_package(nlohmann_json REQUIRED)   # nlohmann-json3-dev: machine-readable ou
 find_package(PNG REQUIRED)             # libpng-dev: pictures
 find_package(OpenEXR REQUIRED)         # libopenexr-dev: facts as pictures
 if(WHITTLE_VULKAN)
-  # libvulkan-dev: headers; glslc compiles the shaders. The loader itself is found when the program
-  # runs, by libvulkan-volk-dev, which is one source file.
+  # libvulkan-dev: headers; glslc: compiles the shaders; libvulkan-volk-dev: finds the loader when the
+  # program runs.
   find_package(Vulkan REQUIRED COMPONENTS glslc)
-  find_path(VOLK_INCLUDE volk.c REQUIRED)
-  add_library(whittle_volk STATIC ${VOLK_INCLUDE}/volk.c)
-  target_compile_definitions(whittle_volk PUBLIC VK_NO_PROTOTYPES)
-  target_include_directories(whittle_volk SYSTEM PUBLIC ${Vulkan_INCLUDE_DIRS})
-  target_compile_options(whittle_volk PRIVATE -w)
-  target_link_libraries(whittle_volk PUBLIC ${CMAKE_DL_LIBS})
-  set_property(GLOBAL APPEND PROPERTY WHITTLE_MODULES whittle_volk)
+  find_path(VOLK_INCLUDE volk.h REQUIRED)
 endif()
 if(WHITTLE_TESTS)
   find_package(GTest REQUIRED)         # libgtest-dev

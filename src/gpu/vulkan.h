@@ -2,4 +2,5 @@
 // starts where no Vulkan is installed.
 #pragma once
 
+#define VK_NO_PROTOTYPES
 #include <volk.h>
