@@ -5,6 +5,8 @@
 // only costs time.
 #pragma once
 
+#include <cmath>
+
 #include "lower/scene.h"
 
 namespace whittle {
@@ -22,6 +24,51 @@ struct CellBox {
 /// Rounding of one evaluation in double, as a share of the magnitudes of its terms.
 inline constexpr double kRoundingSlack = 1e-14;
 
+/// A curved surface that holds its centre (f.c < 0; ellipsoids, cylinders, cones), as
+/// rho(q) <= |w.q + r|, where rho(q)^2 = q.Pq is f's square completed and P has no negative
+/// eigenvalue: rho is a norm, and so convex.
+///
+/// Outside: rho is nowhere below its tangent at the cell's middle, and that is linear. Inside:
+/// where w.q + r > 0 all over the cell, the half-space is convex there, and it holds the cell if it
+/// holds the corners.
+inline Side classify_curved(const Kernels<double>::Quadric& f, Vec3 m, Vec3 h) {
+  using K = Kernels<double>;
+  const double r = std::sqrt(-f.c);
+  const Vec3 w = f.b * (-1 / r);
+  const Vec3 p_diag = f.diag + Vec3{w.x * w.x, w.y * w.y, w.z * w.z};
+  const Vec3 p_off = f.off + Vec3{w.y * w.z, w.x * w.z, w.x * w.y};
+  const Vec3 reach = abs(m) + h;
+  const Vec3 squares = abs(p_diag), mixed = abs(p_off);
+  const double magnitude =
+      squares.x * reach.x * reach.x + squares.y * reach.y * reach.y +
+      squares.z * reach.z * reach.z +
+      2 * (mixed.x * reach.y * reach.z + mixed.y * reach.x * reach.z + mixed.z * reach.x * reach.y);
+  const double along = dot(w, m) + r, along_magnitude = dot(abs(w), reach) + r;
+
+  const Vec3 pm = K::quadric_apply({p_diag, p_off, {}, 0}, m);
+  const double rho = std::sqrt(std::fmax(dot(pm, m), 0));
+  const Vec3 slope = pm / rho;
+  const double slack = kRoundingSlack * (magnitude / rho + along_magnitude);
+  // Beyond the surface, and beyond its mirror image behind the apex. Written so that a NaN crosses.
+  if (rho - along - dot(abs(slope - w), h) > slack && rho + along - dot(abs(slope + w), h) > slack)
+    return Side::kOutside;
+
+  if (!(along - dot(abs(w), h) > kRoundingSlack * along_magnitude)) return Side::kCrosses;
+  // f at the farther of two corners that lie opposite one another, for the four such pairs.
+  const Vec3 half_gradient = K::quadric_half_gradient(f, m);
+  const double gx = 2 * half_gradient.x * h.x, gy = 2 * half_gradient.y * h.y,
+               gz = 2 * half_gradient.z * h.z;
+  const double yz = 2 * f.off.x * h.y * h.z, xz = 2 * f.off.y * h.x * h.z,
+               xy = 2 * f.off.z * h.x * h.y;
+  const double corners = std::fmax(
+      std::fmax(xy + xz + yz + std::fabs(gx + gy + gz), xy - xz - yz + std::fabs(gx + gy - gz)),
+      std::fmax(xz - xy - yz + std::fabs(gx - gy + gz), yz - xy - xz + std::fabs(gy + gz - gx)));
+  const double farthest = K::quadric_value(f, m) + f.diag.x * h.x * h.x + f.diag.y * h.y * h.y +
+                          f.diag.z * h.z * h.z + corners;
+  const double rounding = kRoundingSlack * (magnitude + along_magnitude * along_magnitude);
+  return farthest < -rounding ? Side::kInside : Side::kCrosses;
+}
+
 inline Side classify(const HalfSpace& h, const CellBox& cell) {
   using K = Kernels<double>;
   const Vec3 m = cell.center - h.center;
@@ -30,11 +77,11 @@ inline Side classify(const HalfSpace& h, const CellBox& cell) {
     const double value = 2 * dot(h.f.b, m);
     const double spread = 2 * dot(abs(h.f.b), cell.half);
     low = value - spread, high = value + spread;
-  } else {
-    const K::Vec2 range = h.kind == SurfaceKind::kSphere
-                              ? K::sphere_range(h.f.diag.x, h.f.c, m, cell.half, kRoundingSlack)
-                              : K::quadric_range(h.f, m, cell.half, kRoundingSlack);
+  } else if (h.kind == SurfaceKind::kSphere) {
+    const K::Vec2 range = K::sphere_range(h.f.diag.x, h.f.c, m, cell.half, kRoundingSlack);
     low = range.x, high = range.y;
+  } else {
+    return classify_curved(h.f, m, cell.half);
   }
   // Written so that a NaN crosses.
   if (low > 0) return Side::kOutside;
