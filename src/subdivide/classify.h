@@ -95,6 +95,55 @@ inline Side classify(const Scene& scene, Literal literal, const CellBox& cell) {
   return side == Side::kInside ? Side::kOutside : Side::kInside;
 }
 
+/// What holds all of a literal in a cell, q relative to the cell's middle: n.q + value <= 0.
+struct Bound {
+  Vec3 n;
+  double value;
+  bool is_plane;  ///< it is all that the literal says, and no more
+};
+
+/// A plane's own, or the tangent of a curved surface's norm (see classify_curved). Where there is
+/// none, one that says nothing.
+inline Bound outer_bound(const Scene& scene, Literal literal, const CellBox& cell) {
+  using K = Kernels<double>;
+  const HalfSpace& h = scene.half_spaces[literal >> 1];
+  const bool complement = literal & 1;
+  const Vec3 m = cell.center - h.center;
+  if (h.is_plane()) {
+    const Vec3 n = h.f.b * (complement ? -2.0 : 2.0);
+    return {n, dot(n, m), true};
+  }
+  const Bound nothing{{}, -kInfinity, false};
+  if (complement) return nothing;
+  const double r = std::sqrt(-h.f.c);
+  const Vec3 w = h.f.b * (-1 / r);
+  const double along = dot(w, m) + r;
+  if (!(along - dot(abs(w), cell.half) > 0)) return nothing;
+  const K::Quadric p{h.f.diag + Vec3{w.x * w.x, w.y * w.y, w.z * w.z},
+                     h.f.off + Vec3{w.y * w.z, w.x * w.z, w.x * w.y},
+                     {},
+                     0};
+  const Vec3 pm = K::quadric_apply(p, m);
+  const double rho = std::sqrt(std::fmax(dot(pm, m), 0));
+  // As a length: f's slope is about 2 r where f is a length.
+  const double length = 2 * r;
+  if (!(rho > 0)) return nothing;
+  return {(pm / rho - w) * length, (rho - along) * length, false};
+}
+
+/// Whether no point of the cell, of half size h, is in both by more than the margin: some weighted
+/// sum of the two bounds is above zero all over the cell. As a function of the weight that is
+/// concave, with kinks where a coordinate cancels.
+inline bool are_apart(const Bound& a, const Bound& b, Vec3 h, double margin) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double weight = -a.n[axis] / b.n[axis];
+    if (!(weight > 0)) continue;
+    if (a.value + weight * b.value - dot(abs(a.n + b.n * weight), h) > (1 + weight) * margin)
+      return true;
+  }
+  return false;
+}
+
 /// A primitive by its bounds alone, before any of its faces is looked at.
 inline Side classify_bounds(const Unit& unit, const CellBox& cell) {
   const Box& b = unit.outer;

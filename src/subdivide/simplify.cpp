@@ -1,6 +1,7 @@
 #include "subdivide/simplify.h"
 
 #include <algorithm>
+#include <array>
 
 #include "lower/evaluate.h"
 
@@ -67,7 +68,39 @@ Truth Simplifier::conjunction(FaceAt&& face_at, uint32_t count, bool negated, co
     const Unit& unit = scene_.units[scene_.faces[face_at(0)].unit];
     if (unit.first_box != Unit::kNoBoxes) drop_far_facets(unit, cell, first, out);
   }
-  return out.size() > first ? Truth::kVaries : truth(Side::kInside, negated);
+  const size_t crossing = out.size() - first;
+  if (tight_ && crossing > 1 && crossing <= kFewFacets && !settle_pairs(cell, first, out))
+    return truth(Side::kOutside, negated);
+  return crossing > 0 ? Truth::kVaries : truth(Side::kInside, negated);
+}
+
+/// Looks at the faces of one primitive two by two: a face beyond which nothing of another one is in
+/// the cell says nothing there and is dropped. False if two of them have nothing in common in the
+/// cell; then `out` ends at `first`.
+bool Simplifier::settle_pairs(const CellBox& cell, size_t first, Formula& out) const {
+  std::array<Bound, kFewFacets> bounds;
+  size_t count = out.size() - first;
+  for (size_t i = 0; i < count; ++i)
+    bounds[i] = outer_bound(scene_, scene_.faces[out[first + i].payload()].literal, cell);
+  for (size_t i = 0; i < count; ++i)
+    for (size_t j = 0; j < i; ++j)
+      if (are_apart(bounds[i], bounds[j], cell.half, margin_)) {
+        out.resize(first);
+        return false;
+      }
+  for (size_t j = count; j-- > 0;) {
+    if (!bounds[j].is_plane) continue;
+    const Bound beyond{-bounds[j].n, -bounds[j].value, true};
+    for (size_t i = 0; i < count; ++i) {
+      if (i == j || !are_apart(bounds[i], beyond, cell.half, margin_)) continue;
+      out.erase(out.begin() + std::ptrdiff_t(first + j));
+      std::copy(bounds.begin() + std::ptrdiff_t(j) + 1, bounds.begin() + std::ptrdiff_t(count),
+                bounds.begin() + std::ptrdiff_t(j));
+      --count;
+      break;
+    }
+  }
+  return true;
 }
 
 /// Drops the faces whose facet does not reach the cell. All around a finely facetted body the
@@ -133,6 +166,7 @@ Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, bool 
                            Formula& out) {
   const CellBox cell(cell_box, margin_);
   const double cell_edge = max_component(cell_box.size());
+  tight_ = expand_all;
   out.clear();
   open_.clear();
   uint32_t i = 0;

@@ -48,6 +48,7 @@ class Simplifier {
   template <class FaceAt>
   Truth conjunction(FaceAt&& face_at, uint32_t count, bool negated, const CellBox& cell,
                     Formula& out);
+  bool settle_pairs(const CellBox& cell, size_t first, Formula& out) const;
   void drop_far_facets(const Unit& unit, const CellBox& cell, size_t first, Formula& out) const;
   bool meets(std::span<const Token> faces, const CellBox& cell) const;
   Kept close_group(const Open& group, Formula& out) const;
@@ -55,6 +56,7 @@ class Simplifier {
 
   const Scene& scene_;
   double margin_;
+  bool tight_ = false;  ///< few operands are looked at, so that each may take its time
   std::vector<Open> open_;
 };
 
