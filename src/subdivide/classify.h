@@ -24,7 +24,7 @@ struct CellBox {
 /// Rounding of one evaluation in double, as a share of the magnitudes of its terms.
 inline constexpr double kRoundingSlack = 1e-14;
 
-/// A curved surface that holds its centre (f.c < 0; ellipsoids, cylinders, cones), as
+/// A curved surface that holds its centre (f.c < 0: ellipsoids, cylinders, cones), as
 /// rho(q) <= |w.q + r|, where rho(q)^2 = q.Pq is f's square completed and P has no negative
 /// eigenvalue: rho is a norm, and so convex.
 ///
@@ -33,40 +33,53 @@ inline constexpr double kRoundingSlack = 1e-14;
 /// holds the corners.
 inline Side classify_curved(const Kernels<double>::Quadric& f, Vec3 m, Vec3 h) {
   using K = Kernels<double>;
-  const double r = std::sqrt(-f.c);
-  const Vec3 w = f.b * (-1 / r);
-  const Vec3 p_diag = f.diag + Vec3{w.x * w.x, w.y * w.y, w.z * w.z};
-  const Vec3 p_off = f.off + Vec3{w.y * w.z, w.x * w.z, w.x * w.y};
+  const Vec3 am = K::quadric_apply(f, m);
+  const double value = dot(am, m) + 2 * dot(f.b, m) + f.c;
   const Vec3 reach = abs(m) + h;
-  const Vec3 squares = abs(p_diag), mixed = abs(p_off);
-  const double magnitude =
-      squares.x * reach.x * reach.x + squares.y * reach.y * reach.y +
-      squares.z * reach.z * reach.z +
-      2 * (mixed.x * reach.y * reach.z + mixed.y * reach.x * reach.z + mixed.z * reach.x * reach.y);
-  const double along = dot(w, m) + r, along_magnitude = dot(abs(w), reach) + r;
+  const bool is_cone = !(f.b == Vec3{});
+  const double r = is_cone ? std::sqrt(-f.c) : 0;
+  const Vec3 w = is_cone ? f.b * (-1 / r) : Vec3{};
+  // |x.Py| <= trace P |x| |y|.
+  const double squares = f.diag.x + f.diag.y + f.diag.z + dot(w, w);
+  const double magnitude = squares * dot(reach, reach);
 
-  const Vec3 pm = K::quadric_apply({p_diag, p_off, {}, 0}, m);
-  const double rho = std::sqrt(std::fmax(dot(pm, m), 0));
-  const Vec3 slope = pm / rho;
-  const double slack = kRoundingSlack * (magnitude / rho + along_magnitude);
-  // Beyond the surface, and beyond its mirror image behind the apex. Written so that a NaN crosses.
-  if (rho - along - dot(abs(slope - w), h) > slack && rho + along - dot(abs(slope + w), h) > slack)
-    return Side::kOutside;
-
-  if (!(along - dot(abs(w), h) > kRoundingSlack * along_magnitude)) return Side::kCrosses;
+  if (value > 0) {
+    const Vec3 pm = am + w * dot(w, m);
+    const double square = dot(pm, m);
+    if (!is_cone) {
+      // rho - slope.h > sqrt(-c), times rho and squared.
+      const double low = square - dot(abs(pm), h) - kRoundingSlack * magnitude;
+      return low > 0 && low * low > -f.c * square * (1 + kRoundingSlack) ? Side::kOutside
+                                                                         : Side::kCrosses;
+    }
+    // Beyond the surface, and beyond its mirror image behind the apex. Written so that a NaN
+    // crosses.
+    const double rho = std::sqrt(square), along = dot(w, m) + r;
+    const double slack = kRoundingSlack * (magnitude / rho + dot(abs(w), reach) + r);
+    const Vec3 slope = pm * (1 / rho);
+    return rho - along - dot(abs(slope - w), h) > slack &&
+                   rho + along - dot(abs(slope + w), h) > slack
+               ? Side::kOutside
+               : Side::kCrosses;
+  }
+  double along_square = -f.c;
+  if (is_cone) {
+    const double along = dot(w, m) + r, along_reach = dot(abs(w), reach) + r;
+    if (!(along - dot(abs(w), h) > kRoundingSlack * along_reach)) return Side::kCrosses;
+    along_square = along_reach * along_reach;
+  }
   // f at the farther of two corners that lie opposite one another, for the four such pairs.
-  const Vec3 half_gradient = K::quadric_half_gradient(f, m);
+  const Vec3 half_gradient = am + f.b;
   const double gx = 2 * half_gradient.x * h.x, gy = 2 * half_gradient.y * h.y,
                gz = 2 * half_gradient.z * h.z;
   const double yz = 2 * f.off.x * h.y * h.z, xz = 2 * f.off.y * h.x * h.z,
                xy = 2 * f.off.z * h.x * h.y;
-  const double corners = std::fmax(
-      std::fmax(xy + xz + yz + std::fabs(gx + gy + gz), xy - xz - yz + std::fabs(gx + gy - gz)),
-      std::fmax(xz - xy - yz + std::fabs(gx - gy + gz), yz - xy - xz + std::fabs(gy + gz - gx)));
-  const double farthest = K::quadric_value(f, m) + f.diag.x * h.x * h.x + f.diag.y * h.y * h.y +
-                          f.diag.z * h.z * h.z + corners;
-  const double rounding = kRoundingSlack * (magnitude + along_magnitude * along_magnitude);
-  return farthest < -rounding ? Side::kInside : Side::kCrosses;
+  const double corners = K::pmax(
+      K::pmax(xy + xz + yz + std::fabs(gx + gy + gz), xy - xz - yz + std::fabs(gx + gy - gz)),
+      K::pmax(xz - xy - yz + std::fabs(gx - gy + gz), yz - xy - xz + std::fabs(gy + gz - gx)));
+  const double farthest =
+      value + f.diag.x * h.x * h.x + f.diag.y * h.y * h.y + f.diag.z * h.z * h.z + corners;
+  return farthest < -kRoundingSlack * (magnitude + along_square) ? Side::kInside : Side::kCrosses;
 }
 
 inline Side classify(const HalfSpace& h, const CellBox& cell) {
@@ -124,7 +137,7 @@ inline Bound outer_bound(const Scene& scene, Literal literal, const CellBox& cel
                      {},
                      0};
   const Vec3 pm = K::quadric_apply(p, m);
-  const double rho = std::sqrt(std::fmax(dot(pm, m), 0));
+  const double rho = std::sqrt(dot(pm, m));
   // As a length: f's slope is about 2 r where f is a length.
   const double length = 2 * r;
   if (!(rho > 0)) return nothing;
@@ -136,8 +149,8 @@ inline Bound outer_bound(const Scene& scene, Literal literal, const CellBox& cel
 /// concave, with kinks where a coordinate cancels.
 inline bool are_apart(const Bound& a, const Bound& b, Vec3 h, double margin) {
   for (int axis = 0; axis < 3; ++axis) {
+    if (!(a.n[axis] * b.n[axis] < 0)) continue;
     const double weight = -a.n[axis] / b.n[axis];
-    if (!(weight > 0)) continue;
     if (a.value + weight * b.value - dot(abs(a.n + b.n * weight), h) > (1 + weight) * margin)
       return true;
   }

@@ -47,11 +47,11 @@ void wait_a_little(int round) {
 
 }  // namespace
 
-Refiner::Refiner(const Scene& scene, const SubdivideSettings& settings)
+Refiner::Refiner(const Scene& scene, const UnitBoxes& boxes, const SubdivideSettings& settings)
     : scene_(scene),
       settings_(settings),
       region_edge_(max_component(scene.region.size())),
-      simplifier_(scene, region_edge_ * kCellMargin),
+      simplifier_(scene, boxes, region_edge_ * kCellMargin),
       analysis_(scene) {}
 
 CellLink Refiner::refined(const Cell& cell) {
@@ -227,7 +227,7 @@ Refiner::Place Refiner::choose_split(const OpenCell& open) const {
 }
 
 RefinerPool::RefinerPool(const Scene& scene, const SubdivideSettings& settings)
-    : scene_(scene), settings_(settings) {
+    : scene_(scene), settings_(settings), boxes_(scene) {
   open_root();
 }
 
@@ -253,7 +253,7 @@ void RefinerPool::open_root() {
 Refiner& RefinerPool::take() {
   const std::lock_guard lock(mutex_);
   if (unused_.empty()) {
-    all_.push_back(std::make_unique<Refiner>(scene_, settings_));
+    all_.push_back(std::make_unique<Refiner>(scene_, boxes_, settings_));
     unused_.reserve(all_.size());
     return *all_.back();
   }

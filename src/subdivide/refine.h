@@ -35,7 +35,7 @@ struct OpenCell {
 /// Refines cells of one tree; used by one thread at a time.
 class Refiner {
  public:
-  Refiner(const Scene& scene, const SubdivideSettings& settings);
+  Refiner(const Scene& scene, const UnitBoxes& boxes, const SubdivideSettings& settings);
 
   /// What the cell is; never kOpen. If another thread is at it, waits for that. What it throws (out
   /// of memory) leaves the cell open.
@@ -92,6 +92,7 @@ class RefinerPool {
 
   const Scene& scene_;
   const SubdivideSettings settings_;
+  const UnitBoxes boxes_;
   Cell root_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<Refiner>> all_;

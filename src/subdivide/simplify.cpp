@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "lower/evaluate.h"
 
@@ -80,6 +81,12 @@ Truth Simplifier::conjunction(FaceAt&& face_at, uint32_t count, bool negated, co
 bool Simplifier::settle_pairs(const CellBox& cell, size_t first, Formula& out) const {
   std::array<Bound, kFewFacets> bounds;
   size_t count = out.size() - first;
+  // Nothing is to be found out where all are square to the axes.
+  const auto is_square = [&](Token token) {
+    const HalfSpace& h = scene_.half_spaces[scene_.faces[token.payload()].literal >> 1];
+    return h.is_plane() && (h.f.b.x == 0) + (h.f.b.y == 0) + (h.f.b.z == 0) == 2;
+  };
+  if (std::all_of(out.end() - std::ptrdiff_t(count), out.end(), is_square)) return true;
   for (size_t i = 0; i < count; ++i)
     bounds[i] = outer_bound(scene_, scene_.faces[out[first + i].payload()].literal, cell);
   for (size_t i = 0; i < count; ++i)
@@ -169,9 +176,28 @@ Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, bool 
   tight_ = expand_all;
   out.clear();
   open_.clear();
+  const bool in_batches = boxes_.are_worth_it(in.size());
+  UnitBoxes::Batch batch;
+  uint32_t batch_first = 0, batch_end = 0;
   uint32_t i = 0;
   while (true) {
-    // One operand.
+    // One operand. Primitives beside the cell are found many at a time, and those that say nothing
+    // in their group there are passed over together.
+    if (in_batches && i >= batch_end) {
+      batch_first = i;
+      batch_end = std::min(uint32_t(in.size()), i + UnitBoxes::kBatch);
+      batch = boxes_.look_at(in.subspan(i, batch_end - i), cell);
+    }
+    if (!open_.empty()) {
+      const Open& group = open_.back();
+      const uint32_t keeps = group.kind == TokenKind::kAnd ? batch.negated : ~batch.negated;
+      const uint32_t neutral = (batch.beside & keeps) | (batch.within & ~keeps);
+      const uint32_t count = uint32_t(std::countr_one(neutral >> (i - batch_first)));
+      if (const uint32_t skipped = std::min(count, group.in_end - 1 - i); skipped > 0) {
+        i += skipped;
+        continue;
+      }
+    }
     const Token token = in[i];
     Truth value = Truth::kVaries;
     Kept kept;
@@ -187,6 +213,12 @@ Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, bool 
     }
     if (token.is_group()) {
       value = token.kind() == TokenKind::kAnd ? Truth::kTrue : Truth::kFalse;
+    } else if (const uint32_t bit = 1u << (i - batch_first); (batch.beside & bit) != 0) {
+      value = truth(Side::kOutside, token.negated());
+    } else if ((batch.within & bit) != 0) {
+      value = truth(Side::kInside, token.negated());
+    } else if ((batch.balls & bit) != 0) {
+      out.push_back(token);
     } else if (token.kind() == TokenKind::kUnit) {
       value = unit(token, cell, cell_edge, expand_all, out, kept);
     } else {
@@ -198,7 +230,10 @@ Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, bool 
              scene_.faces[in[i + 1].payload()].unit == unit_number)
         ++i;
       const size_t before = out.size();
-      value = conjunction(face_at, i + 1 - first, token.negated(), cell, out);
+      const Side side = classify_bounds(scene_.units[unit_number], cell);
+      value = side == Side::kCrosses
+                  ? conjunction(face_at, i + 1 - first, token.negated(), cell, out)
+                  : truth(side, token.negated());
       kept.operands = uint32_t(out.size() - before);
     }
     ++i;

@@ -131,7 +131,8 @@ TEST(Simplify, KeepsTheValueInsideTheCell) {
   for (uint64_t seed = 0; seed < 300; ++seed) {
     const Scene scene = lowered(random_tree(seed));
     if (scene.region.is_empty()) continue;
-    Simplifier simplifier(scene, 0);
+    const UnitBoxes boxes(scene);
+    Simplifier simplifier(scene, boxes, 0);
     Formula outer, inner;
     const Box box = points.box_in(scene.region);
     const Truth truth = simplifier.simplify(scene.formula, box, seed % 2, outer);
@@ -169,7 +170,8 @@ TEST(Simplify, TwiceIsOnce) {
   for (uint64_t seed = 0; seed < 300; ++seed) {
     const Scene scene = lowered(random_tree(seed));
     if (scene.region.is_empty()) continue;
-    Simplifier simplifier(scene, 0);
+    const UnitBoxes boxes(scene);
+    Simplifier simplifier(scene, boxes, 0);
     Formula once, twice, thrice;
     const Box box = points.box_in(scene.region);
     if (simplifier.simplify(scene.formula, box, true, once) != Truth::kVaries) continue;
@@ -185,7 +187,8 @@ TEST(Simplify, AGroupLeftWithOneOperandJoinsTheGroupAround) {
   const Scene scene = lowered(
       "union(){ sphere(1); intersection(){ cube(100, center = true);"
       " union(){ translate([50,0,0]) sphere(1); translate([1,0,0]) sphere(1); } } }");
-  Simplifier simplifier(scene, 0);
+  const UnitBoxes boxes(scene);
+  Simplifier simplifier(scene, boxes, 0);
   Formula out;
   const Box cell{Vec3{0.4, -0.5, -1} - scene.origin, Vec3{0.6, 0.5, 1} - scene.origin};
   ASSERT_EQ(simplifier.simplify(scene.formula, cell, true, out), Truth::kVaries);
@@ -200,7 +203,8 @@ TEST(Simplify, FacetsThatDoNotReachTheCellAreDropped) {
   // The planes of a finely facetted sphere all cross any cell at its surface of some size.
   Points points(8);
   const Scene scene = lowered("rotate([10,20,30]) scale([1,1.5,0.7]) sphere(10, $fn = 60);");
-  Simplifier simplifier(scene, 0);
+  const UnitBoxes boxes(scene);
+  Simplifier simplifier(scene, boxes, 0);
   Formula outer, inner;
   size_t kept = 0, cells = 0;
   for (int i = 0; i < 3000; ++i) {
