@@ -1,14 +1,21 @@
 #include "subdivide/refine.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 namespace whittle {
 namespace {
 
 /// Formulas that would have no more literals than this get all their primitives expanded.
 constexpr uint32_t kExpandAll = 64;
+
+/// A cell of at least so many operands is split into parts of about kWantedOperands each at once.
+constexpr size_t kWide = 4096, kWantedOperands = 128;
+constexpr int kMostSplitsAtOnce = 12;
 
 /// A cell whose formula has not become shorter, in itself and in its sibling, over this many splits
 /// in a row is a corner or an edge where many surfaces meet: no split will part them.
@@ -54,7 +61,7 @@ Refiner::Refiner(const Scene& scene, const UnitBoxes& boxes, const SubdivideSett
       simplifier_(scene, boxes, region_edge_ * kCellMargin),
       analysis_(scene) {}
 
-CellLink Refiner::refined(const Cell& cell) {
+CellLink Refiner::refined(const Cell& cell, const Helpers* helpers) {
   for (int round = 0;; ++round) {
     const CellLink link = cell.link();
     if (link.kind() != CellKind::kOpen) return link;
@@ -65,7 +72,7 @@ CellLink Refiner::refined(const Cell& cell) {
     }
     const OpenCell& open = *static_cast<const OpenCell*>(link.target());
     try {
-      const CellLink result = refine(cell, open);
+      const CellLink result = refine(cell, open, helpers);
       cell.bits.store(result.bits(), std::memory_order_release);
       --stats_.cells[size_t(CellKind::kOpen)];
       ++stats_.cells[size_t(result.kind())];
@@ -92,9 +99,13 @@ void Refiner::refine_all(const Cell& cell) {
   }
 }
 
-CellLink Refiner::refine(const Cell& cell, const OpenCell& open) {
+CellLink Refiner::refine(const Cell& cell, const OpenCell& open, const Helpers* helpers) {
   CellLink link;
-  return ends(open, link) ? link : split(cell, open);
+  if (ends(open, link)) return link;
+  if (is_wide(open)) {
+    if (const std::optional<CellLink> grid = split_wide(cell, open, helpers)) return *grid;
+  }
+  return split(cell, open);
 }
 
 /// Whether the cell is not split, and then what it is.
@@ -144,13 +155,14 @@ CellLink Refiner::leaf() {
 }
 
 CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
-  const Place place = choose_split(parent);
+  const int axis = split_axis(parent.box.size(), settings_.split, parent.depth);
+  const double at = parent.box.center()[axis];
   OpenCell child[2];
   Truth truth[2];
   size_t unsplit[2] = {0, 0}, weight[2] = {0, 0};
   for (int side = 0; side < 2; ++side) {
     child[side].box = parent.box;
-    (side == 0 ? child[side].box.hi : child[side].box.lo)[place.axis] = place.at;
+    (side == 0 ? child[side].box.hi : child[side].box.lo)[axis] = at;
     stats_.classified += parent.token_count;
     truth[side] = simplifier_.simplify(parent.tokens(), child[side].box,
                                        parent.literals <= kExpandAll, child_formula_[side]);
@@ -162,11 +174,9 @@ CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
   const bool stalls = child[0].literals >= parent.literals && child[1].literals >= parent.literals;
   const size_t taken = 2 * sizeof(Cell) + unsplit[0] + unsplit[1];
   const double rest = parent.memory > taken ? double(parent.memory - taken) : 0;
-  auto* const cells = static_cast<Cell*>(cells_.allocate(2 * sizeof(Cell), 2 * sizeof(Cell)));
-  stats_.memory_bytes += 2 * sizeof(Cell);
+  Cell* const cells = new_pair();
   stats_.depth = std::max(stats_.depth, parent.depth + 1);
   for (int side = 0; side < 2; ++side) {
-    Cell* const made = ::new (cells + side) Cell;
     CellLink link = decided(truth[side] == Truth::kTrue);
     if (truth[side] == Truth::kVaries) {
       child[side].depth = parent.depth + 1;
@@ -175,11 +185,135 @@ CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
           unsplit[side] + size_t(rest * double(weight[side]) / double(weight[0] + weight[1]));
       link = open(child[side], child_formula_[side]);
     }
-    made->bits.store(link.bits(), std::memory_order_relaxed);
+    cells[side].bits.store(link.bits(), std::memory_order_relaxed);
     ++stats_.cells[size_t(link.kind())];
   }
-  cell.split = place.at;
-  return {CellKind::kNode, cells, place.axis};
+  cell.split = at;
+  return {CellKind::kNode, cells, axis};
+}
+
+/// Whether the cell is worth splitting many times at once. Where small cells end early, each split
+/// has to be looked at.
+bool Refiner::is_wide(const OpenCell& open) const {
+  return open.token_count >= kWide && !settings_.is_small && open.depth < kMostDepth / 2 &&
+         operand_count(open.tokens()) >= kWide;
+}
+
+std::optional<CellLink> Refiner::split_wide(const Cell& cell, const OpenCell& parent,
+                                            const Helpers* helpers) {
+  const auto loop = [&](size_t n, size_t grain, const auto& body) {
+    if (helpers == nullptr)
+      body(0, n, 0);
+    else
+      helpers->workers.for_parts(n, grain, body);
+  };
+  const size_t wanted = parent.token_count / kWantedOperands;
+  const int splits = std::min(int(std::bit_width(wanted)), kMostSplitsAtOnce);
+  const SplitGrid grid = make_grid(parent.box, splits, settings_.split, parent.depth);
+  const std::vector<Formula> dealt =
+      deal_operands(scene_, parent.tokens(), grid, region_edge_ * kCellMargin, loop);
+  if (dealt.empty()) return std::nullopt;
+
+  // Nothing gets longer from here on, so if this fits all does.
+  std::vector<uint32_t> literals(dealt.size());
+  loop(dealt.size(), 1, [&](size_t first, size_t last, size_t) {
+    for (size_t part = first; part < last; ++part)
+      literals[part] = expanded_size(scene_, dealt[part]);
+  });
+  size_t most = 0;
+  for (size_t part = 0; part < dealt.size(); ++part)
+    most += 2 * sizeof(Cell) + bytes_unsplit(literals[part], dealt[part].size());
+  if (most > parent.memory) return std::nullopt;
+
+  // Every part by itself.
+  std::vector<CellLink> links(dealt.size());
+  std::vector<OpenCell*> opened(dealt.size());
+  loop(dealt.size(), 1, [&](size_t first, size_t last, size_t worker) {
+    Refiner& refiner = helpers == nullptr ? *this : helpers->refiner_of(worker);
+    for (size_t part = first; part < last; ++part) {
+      refiner.stats_.classified += dealt[part].size();
+      OpenCell child{grid.part(part), 0, parent.depth + uint32_t(splits), 0, 0, 0};
+      Formula& formula = refiner.child_formula_[0];
+      const Truth truth = refiner.simplifier_.simplify(dealt[part], child.box,
+                                                       literals[part] <= kExpandAll, formula);
+      links[part] = decided(truth == Truth::kTrue);
+      if (truth != Truth::kVaries) continue;
+      child.literals = expanded_size(scene_, formula);
+      links[part] = refiner.open(child, formula);
+      opened[part] = static_cast<OpenCell*>(const_cast<void*>(links[part].target()));
+    }
+  });
+
+  size_t taken = 2 * sizeof(Cell) * dealt.size(), weights = 0;
+  for (const OpenCell* open : opened) {
+    if (open == nullptr) continue;
+    taken += bytes_unsplit(open->literals, open->token_count);
+    weights += open->literals + kFew;
+  }
+  const double rest = parent.memory > taken ? double(parent.memory - taken) : 0;
+  for (OpenCell* open : opened) {
+    if (open == nullptr) continue;
+    open->memory = bytes_unsplit(open->literals, open->token_count) +
+                   size_t(rest * double(open->literals + kFew) / double(weights));
+  }
+  stats_.depth = std::max(stats_.depth, parent.depth + uint32_t(splits));
+  return join(cell, grid, links);
+}
+
+/// The splits that lead to the parts of a grid, the last ones first. What is decided alike on both
+/// sides of a split is not split there.
+CellLink Refiner::join(const Cell& cell, const SplitGrid& grid, std::vector<CellLink> links) {
+  std::vector<double> splits(links.size(), 0);
+  std::array<size_t, 3> count{grid.cuts[0].size() - 1, grid.cuts[1].size() - 1,
+                              grid.cuts[2].size() - 1};
+  std::array<size_t, 3> stride{1, 1, 1};  // of the finest parts
+  for (size_t level = grid.axes.size(); level-- > 0;) {
+    const int axis = grid.axes[level];
+    const size_t along = size_t(axis);
+    std::array<size_t, 3> half = count;
+    half[along] /= 2;
+    std::vector<CellLink> joined(half[0] * half[1] * half[2]);
+    std::vector<double> joined_splits(joined.size());
+    for (size_t z = 0; z < half[2]; ++z)
+      for (size_t y = 0; y < half[1]; ++y)
+        for (size_t x = 0; x < half[0]; ++x) {
+          const std::array<size_t, 3> to{x, y, z};
+          std::array<size_t, 3> low = to;
+          low[along] *= 2;
+          std::array<size_t, 3> high = low;
+          ++high[along];
+          const auto number = [&](const std::array<size_t, 3>& at) {
+            return (at[2] * count[1] + at[1]) * count[0] + at[0];
+          };
+          const size_t a = number(low), b = number(high), at = (z * half[1] + y) * half[0] + x;
+          if (links[a].bits() == links[b].bits()) {
+            joined[at] = links[a];
+            continue;
+          }
+          Cell* const pair = new_pair();
+          for (const auto& [made, from] : {std::pair(pair, a), std::pair(pair + 1, b)}) {
+            made->split = splits[from];
+            made->bits.store(links[from].bits(), std::memory_order_relaxed);
+            ++stats_.cells[size_t(links[from].kind())];
+          }
+          joined[at] = CellLink(CellKind::kNode, pair, axis);
+          joined_splits[at] = grid.cuts[along][high[along] * stride[along]];
+        }
+    links = std::move(joined);
+    splits = std::move(joined_splits);
+    count = half;
+    stride[along] *= 2;
+  }
+  cell.split = splits[0];
+  return links[0];
+}
+
+Cell* Refiner::new_pair() {
+  auto* const pair = static_cast<Cell*>(cells_.allocate(2 * sizeof(Cell), 2 * sizeof(Cell)));
+  ::new (pair) Cell;
+  ::new (pair + 1) Cell;
+  stats_.memory_bytes += 2 * sizeof(Cell);
+  return pair;
 }
 
 CellLink Refiner::open(const OpenCell& what, std::span<const Token> formula) {
@@ -217,13 +351,6 @@ bool Refiner::has_few_half_spaces(std::span<const Token> formula) const {
 bool Refiner::simple_enough() const {
   if (settings_.leaf == LeafRule::kHalfSpaces) return analysis_.size() <= settings_.leaf_size;
   return analysis_.primitive_count() <= settings_.leaf_size || analysis_.is_plain_union();
-}
-
-Refiner::Place Refiner::choose_split(const OpenCell& open) const {
-  const Vec3 size = open.box.size();
-  int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  if (settings_.split == SplitRule::kXyz) axis = int(open.depth % 3);
-  return {axis, open.box.center()[axis]};
 }
 
 RefinerPool::RefinerPool(const Scene& scene, const SubdivideSettings& settings)

@@ -19,6 +19,12 @@ enum class SplitRule {
   kXyz,      ///< X, Y, Z in turn, in the middle: the paper's
 };
 
+/// Which axis is cut of a cell of that size.
+inline int split_axis(Vec3 size, SplitRule rule, uint32_t depth) {
+  if (rule == SplitRule::kXyz) return int(depth % 3);
+  return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+}
+
 enum class LeafRule {
   kHalfSpaces,  ///< at most leaf_size half-spaces
   kPrimitives,  ///< the paper's: at most leaf_size primitives, or a union of any number

@@ -434,6 +434,51 @@ TEST(Subdivide, NothingIsRefinedThatNobodyLooksAt) {
   EXPECT_GT(compared, splits);
 }
 
+TEST(Subdivide, CellsThatAreSplitManyTimesAtOnceAreRight) {
+  // Wide unions, differences and intersections; the last one of boxes that do not tell anything.
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto at_random = [&] {
+    return "translate([" + std::to_string(100 * unit(random)) + "," +
+           std::to_string(60 * unit(random)) + "," + std::to_string(30 * unit(random)) + "])";
+  };
+  std::string balls, groups, shells;
+  for (int i = 0; i < 5000; ++i) {
+    balls += at_random() + "sphere(" + std::to_string(0.5 + unit(random)) + ");";
+    groups += at_random() + "difference(){cube(2);sphere(1);intersection(){cube(1);sphere(1.2);}}";
+    if (i % 10 == 0)
+      shells += "difference(){cube([100,60,30]);" + at_random() + "cylinder(r=0.5,h=3);}";
+  }
+  Points points(12);
+  for (const std::string& text :
+       {balls, groups, "difference(){cube([100,60,30]);" + balls + groups + "}",
+        "intersection(){" + shells + "union(){" + balls + "}" + shells + "}"}) {
+    const Scene scene = lowered(text);
+    SubdivideSettings one, four;
+    one.threads = 1, four.threads = 4;
+    const CellTree tree = subdivide(scene, one);
+    EXPECT_TRUE(same(tree, subdivide(scene, four)));
+    const CellTree lazy = open_cells(scene, one);
+    RefinerLease(lazy)->refine_all(*lazy.root);
+    EXPECT_TRUE(same(tree, lazy));
+    uint32_t number = 0;
+    size_t looked_at = 0;
+    for_each_leaf(tree, [&](CellLink cell, const Box& box) {
+      if (++number % 61 != 0) return;
+      const Vec3 p = points.in(box);
+      if (near_a_surface(scene, p)) return;
+      ++looked_at;
+      ASSERT_EQ(leaf_value(scene, cell, p), contains(scene, scene.formula, p));
+    });
+    EXPECT_GT(looked_at, 40u);
+    // With little memory as well.
+    one.memory = four.memory = 6'000'000;
+    const CellTree poor = subdivide(scene, one);
+    EXPECT_LE(statistics_of(poor).memory_bytes, one.memory);
+    EXPECT_TRUE(same(poor, subdivide(scene, four)));
+  }
+}
+
 TEST(Subdivide, CopiesOfOneBodyAreOneLeaf) {
   std::string text;
   for (int i = 0; i < 1000; ++i) text += "cube(10);";

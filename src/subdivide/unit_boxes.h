@@ -28,8 +28,8 @@ class UnitBoxes {
   /// At most kBatch tokens. The instruction set is chosen at run time; all give the same bits.
   Batch look_at(std::span<const Token> tokens, const CellBox& cell) const;
 
-  /// Whether look_at() finds out more than it takes, for a formula of so many tokens. Short ones are
-  /// of primitives that nearly all cross the cell; but of balls it tells that, too.
+  /// Whether look_at() finds out more than it takes, for a formula of so many tokens. Short ones
+  /// are of primitives that nearly all cross the cell; but of balls it tells that, too.
   bool are_worth_it(size_t tokens) const {
     constexpr size_t kLong = 32;
     return tokens > kLong || 2 * balls_ > entries_.size();
