@@ -184,9 +184,16 @@ void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffec
 void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments) {
   constexpr uint32_t kMostLeafSize = 1000;
   OptionGroup group(app, "Subdivision");
-  group.add_count("--leaf-size", "K", arguments.leaf_size, 1u, kMostLeafSize,
-                  fmt::format("half-spaces a leaf ({}), 1 to {}", SubdivideSettings{}.leaf_size,
-                              kMostLeafSize));
+  group.add_text("--leaf-size", "K",
+                 fmt::format("half-spaces a leaf, 1 to {}, or auto (auto): as many as\n"
+                             "cost the rays less than splitting would",
+                             kMostLeafSize),
+                 [&](const std::string& text) {
+                   arguments.leaf_size =
+                       text == "auto"
+                           ? kAutoLeafSize
+                           : uint32_t(parse_count("--leaf-size", text, 1, kMostLeafSize));
+                 });
   group.add_choice("--split", split_choices(), "split rule", "which axis is cut: {}",
                    [&](SplitRule rule) { arguments.split = rule; });
   group.add_text("--pixel-threshold", "PIXELS", "split no cell whose edges all look shorter (0)",
@@ -224,7 +231,7 @@ void apply(const SubdivisionArguments& arguments, RendererSettings& settings) {
     s.ignore_small = true;
     settings.pixel_threshold = 1;
   }
-  if (arguments.leaf_size != 0) s.leaf_size = arguments.leaf_size;
+  s.leaf_size = arguments.leaf_size.value_or(s.leaf_size);
   s.memory = arguments.memory.value_or(s.memory);
   s.split = arguments.split.value_or(s.split);
   s.ignore_small = arguments.ignore_small.value_or(s.ignore_small);

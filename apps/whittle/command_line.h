@@ -65,7 +65,7 @@ void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffec
 
 struct SubdivisionArguments {
   bool paper = false;
-  uint32_t leaf_size = 0;  ///< 0: as the rules have it
+  std::optional<uint32_t> leaf_size;
   std::optional<SplitRule> split;
   std::optional<size_t> memory;
   std::optional<double> pixel_threshold;

@@ -23,6 +23,14 @@ uint32_t stall_limit(uint32_t literals) {
   return std::max(6u, literals);
 }
 
+/// Whether splitting a cell of so many literals saves more than it takes, all counted in visits of
+/// a node by a ray. Each ray saves a part of the literals that it would look at, and makes a visit
+/// and a bit more; the split itself takes so much for each literal of the formula.
+bool pays_off(uint32_t literals, double rays) {
+  constexpr double kSavedEach = 0.32, kMoreVisits = 1.3, kSplitEach = 20;
+  return rays * (kSavedEach * literals - kMoreVisits) > kSplitEach * literals;
+}
+
 /// What a cell takes if it is not split, at most: as a leaf, or open and rounded up to a power of
 /// two.
 size_t bytes_unsplit(size_t literals, size_t tokens) {
@@ -113,7 +121,11 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
   const double edge = max_component(open.box.size()) / region_edge_;
   const Box world{open.box.lo + scene_.origin, open.box.hi + scene_.origin};
   const bool small = settings_.is_small && settings_.is_small(world);
-  const bool useless = !settings_.is_small && edge * edge * open.literals < settings_.least_use;
+  const double rays = edge * edge * settings_.rays;
+  const bool is_auto = settings_.leaf_size == kAutoLeafSize;
+  const bool useless =
+      !settings_.is_small && (is_auto ? !pays_off(open.literals, rays)
+                                      : edge * edge * open.literals < settings_.least_use);
   const size_t split_bytes = 2 * (sizeof(Cell) + bytes_unsplit(open.literals, open.token_count));
   const bool must_end = small || useless || edge * 0.5 < settings_.smallest_edge ||
                         open.stalled >= stall_limit(open.literals) || open.depth >= kMostDepth ||
@@ -133,7 +145,7 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
     link = decided(analysis_.constant_value());
     return true;
   }
-  const bool simple = simple_enough();
+  const bool simple = is_auto ? !pays_off(analysis_.size(), rays) : simple_enough();
   if (!must_end && !simple) return false;
   link =
       small && settings_.ignore_small && !simple ? CellLink(CellKind::kIgnored, nullptr) : leaf();

@@ -264,7 +264,7 @@ struct Rules {
 
 std::vector<Rules> all_rules() {
   std::vector<Rules> rules;
-  for (const uint32_t k : {1u, 2u, 4u, 6u, 8u, 16u}) {
+  for (const uint32_t k : {kAutoLeafSize, 1u, 2u, 4u, 6u, 8u, 16u}) {
     SubdivideSettings settings;
     settings.leaf_size = k;
     rules.push_back({"k=" + std::to_string(k), settings});
@@ -484,6 +484,7 @@ TEST(Subdivide, CopiesOfOneBodyAreOneLeaf) {
   for (int i = 0; i < 1000; ++i) text += "cube(10);";
   const Scene scene = lowered(text);
   SubdivideSettings settings;
+  settings.leaf_size = 6;
   EXPECT_EQ(cell_count(subdivide(scene, settings)), 1u);
 }
 
@@ -507,6 +508,18 @@ TEST(Subdivide, DoesNotDependOnTheNumberOfThreads) {
     SubdivideSettings one, four;
     one.threads = 1, four.threads = 4;
     EXPECT_TRUE(same(subdivide(scene, one), subdivide(scene, four))) << seed;
+  }
+}
+
+TEST(Subdivide, MoreRaysAreWorthMoreCells) {
+  const Scene scene = lowered(random_tree(3, {.primitives = 300}));
+  uint64_t cells = 0;
+  for (const double rays : {1e2, 1e4, 1e6, 1e8}) {
+    SubdivideSettings settings;
+    settings.rays = rays;
+    const uint64_t now = cell_count(subdivide(scene, settings));
+    EXPECT_GT(now, cells) << rays;
+    cells = now;
   }
 }
 
