@@ -294,6 +294,9 @@ TEST(Subdivide, CellsThatAreSplitManyTimesAtOnceAreRight) {
   Points points(12);
   for (const std::string& text :
        {groups, "difference(){cube([100,60,30]);" + balls + "}",
+        // Wide only after a split, and then with a minuend that does not fill the cell.
+        "difference(){cube([30,60,30]);scale([0.45,1,1]){" + balls +
+            "}} translate([70,30,15]) sphere(20);",
         "intersection(){" + shells + "union(){" + balls + "}" + shells + "}"}) {
     const Scene scene = lowered(text);
     SubdivideSettings one, four;
