@@ -74,6 +74,12 @@ Reach reach_of(const Scene& scene, std::span<const Token> operand) {
   }
 }
 
+/// The outermost group that is one, and no left-over of a group that lost all but one operand.
+std::span<const Token> without_passes(std::span<const Token> formula) {
+  while (formula[0].is_pass()) formula = formula.subspan(1);
+  return formula;
+}
+
 std::vector<Operand> operands_of(std::span<const Token> formula) {
   std::vector<Operand> operands;
   for (uint32_t i = 1; i < formula.size();) {
@@ -140,11 +146,13 @@ SplitGrid make_grid(const Box& box, int splits, SplitRule rule, uint32_t depth) 
 }
 
 size_t operand_count(std::span<const Token> formula) {
-  return formula[0].is_group() && !formula[0].is_pass() ? operands_of(formula).size() : 0;
+  formula = without_passes(formula);
+  return formula[0].is_group() ? operands_of(formula).size() : 0;
 }
 
 std::vector<Formula> deal_operands(const Scene& scene, std::span<const Token> formula,
                                    const SplitGrid& grid, double margin, const Loop& loop) {
+  formula = without_passes(formula);
   const TokenKind kind = formula[0].kind();
   const std::vector<Operand> operands = operands_of(formula);
   const size_t parts = grid.size(), chunks = (operands.size() + kChunk - 1) / kChunk;
