@@ -60,7 +60,8 @@ BENCHMARK(root_along_ray);
 void simplify_formula(benchmark::State& state) {
   const Scene scene = cheese(int(state.range(0)));
   const std::vector<Box> cells = boxes(scene.region);
-  Simplifier simplifier(scene, 0);
+  const UnitBoxes boxes(scene);
+  Simplifier simplifier(scene, boxes, 0);
   Formula out;
   size_t i = 0;
   for (auto _ : state)

@@ -12,6 +12,7 @@
 #include "console.h"
 #include "option_group.h"
 #include "progress.h"
+#include "statistics.h"
 
 namespace whittle {
 namespace {
@@ -82,7 +83,7 @@ void add_loading_options(CLI::App& app, Loading& loading) {
 }
 
 ReadOptions read_options(const Loading& loading) {
-  return {.curves = loading.curves, .polish = loading.polish, .limits = loading.limits.reading};
+  return {.curves = loading.curves, .polish = loading.polish, .limits = loading.limits};
 }
 
 Status say_warnings(const Read& read, const Loading& loading) {
@@ -183,9 +184,16 @@ void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffec
 void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments) {
   constexpr uint32_t kMostLeafSize = 1000;
   OptionGroup group(app, "Subdivision");
-  group.add_count("--leaf-size", "K", arguments.leaf_size, 1u, kMostLeafSize,
-                  fmt::format("half-spaces a leaf ({}), 1 to {}", SubdivideSettings{}.leaf_size,
-                              kMostLeafSize));
+  group.add_text("--leaf-size", "K",
+                 fmt::format("half-spaces a leaf, 1 to {}, or auto (auto): as many as\n"
+                             "cost the rays less than splitting would",
+                             kMostLeafSize),
+                 [&](const std::string& text) {
+                   arguments.leaf_size =
+                       text == "auto"
+                           ? kAutoLeafSize
+                           : uint32_t(parse_count("--leaf-size", text, 1, kMostLeafSize));
+                 });
   group.add_choice("--split", split_choices(), "split rule", "which axis is cut: {}",
                    [&](SplitRule rule) { arguments.split = rule; });
   group.add_text("--pixel-threshold", "PIXELS", "split no cell whose edges all look shorter (0)",
@@ -200,16 +208,22 @@ void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments) {
   group.add_choice("--small-cells", small_cells_choices(), "fate of small cells",
                    "below that threshold: {}",
                    [&](bool ignore) { arguments.ignore_small = ignore; });
+  group.add_text("--memory", "SIZE",
+                 fmt::format("what cells may take ({}), as in 100K, 100M, 2G; with\n"
+                             "less the picture takes longer, but is the same",
+                             describe_bytes(SubdivideSettings{}.memory)),
+                 [&](const std::string& text) {
+                   constexpr uint64_t kMostMemory = uint64_t(1) << 50;
+                   arguments.memory = parse_bytes("--memory", text, kMostMemory);
+                 });
   group.add_flag("--paper", arguments.paper,
                  "the paper's rules: --split xyz, two primitives a leaf\n"
                  "(--leaf-size 2) or a union of any number,\n"
                  "--pixel-threshold 1, --small-cells ignore");
 }
 
-void apply(const SubdivisionArguments& arguments, const Limits& limits,
-           RendererSettings& settings) {
+void apply(const SubdivisionArguments& arguments, RendererSettings& settings) {
   SubdivideSettings& s = settings.subdivide;
-  s.max_cells = limits.cells;
   if (arguments.paper) {
     s.leaf_size = 2;
     s.leaf = LeafRule::kPrimitives;
@@ -217,7 +231,8 @@ void apply(const SubdivisionArguments& arguments, const Limits& limits,
     s.ignore_small = true;
     settings.pixel_threshold = 1;
   }
-  if (arguments.leaf_size != 0) s.leaf_size = arguments.leaf_size;
+  s.leaf_size = arguments.leaf_size.value_or(s.leaf_size);
+  s.memory = arguments.memory.value_or(s.memory);
   s.split = arguments.split.value_or(s.split);
   s.ignore_small = arguments.ignore_small.value_or(s.ignore_small);
   settings.pixel_threshold = arguments.pixel_threshold.value_or(settings.pixel_threshold);

@@ -166,7 +166,7 @@ Result<Scene> lower(const Model& model) {
     for (const HalfSpace& half_space : lowered.half_spaces)
       scene.faces.push_back({table.add(half_space, reach), number});
     unit.face_count = uint32_t(scene.faces.size()) - unit.first_face;
-    if (unit.face_count > 1)
+    if (unit.face_count > 0)
       unit.outer =
           grown(transform(local_from_world, instance_box(model, instance)), 10 * tolerance);
     if (unit.face_count >= kManyFaces) {

@@ -97,12 +97,14 @@ void Renderer::prepare(const Camera& camera) {
   s.cells.reset();
   SubdivideSettings settings = s.settings.subdivide;
   settings.threads = s.settings.threads;
+  settings.rays = double(camera.width) * double(camera.height);
   if (s.settings.pixel_threshold > 0) {
     settings.is_small = [camera, pixels = s.settings.pixel_threshold](const Box& box) {
       return is_below_pixels(camera, box, pixels);
     };
   }
-  s.cells = subdivide(s.scene, settings);
+  s.cells = open_cells(s.scene, settings);
+  s.settings.eager ? refine_all(*s.cells, s.workers) : refine_top(*s.cells, s.workers);
   std::unique_ptr<CpuTracer> cpu = make_cpu_tracer(s.scene, *s.cells, s.settings.threads);
   s.cpu = cpu.get();
   s.tracer = std::move(cpu);

@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kTile = 16;  ///< pixels; small enough to balance, large enough to cost nothing
 constexpr size_t kProbeChunk = 256;  ///< positions a task
-constexpr uint32_t kMaxDepth = 192;  ///< what the walk through the cells has room for
 
 /// Every other bit of `i`: a number along the Z-order curve is x in the even bits, y in the odd.
 constexpr int even_bits(int i) {
@@ -38,9 +37,7 @@ constexpr TileOrder kTileOrder;
 class CpuTracerImpl final : public CpuTracer {
  public:
   CpuTracerImpl(const Scene& scene, const CellTree& tree, int threads)
-      : scene_(scene), tree_(tree), workers_(threads), scratches_(workers_) {
-    WHITTLE_CHECK(tree.stats.depth < kMaxDepth);
-  }
+      : scene_(scene), tree_(tree), workers_(threads), scratches_(workers_) {}
 
   const char* name() const override { return "cpu"; }
 

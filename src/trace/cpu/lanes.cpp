@@ -70,7 +70,6 @@ HWY_INLINE Bool mask_of(uint32_t lanes) {
 }
 
 constexpr size_t kMaxLanes = 8;
-constexpr uint32_t kMaxDepth = 192;  ///< three axes, each halved at most 64 times
 
 /// Curved surfaces whose radius is below this share of the region's longest edge get the arithmetic
 /// for small ones. Without it a surface is blurred by its share's inverse times what rounding does
@@ -132,7 +131,7 @@ class Packet {
  private:
   struct Later {
     double t0[kMaxLanes], t1[kMaxLanes];
-    uint32_t cell;
+    const Cell* cell;
   };
 
   void make_rays(std::span<const PixelPosition> positions) {
@@ -175,9 +174,9 @@ class Packet {
 
   /// Front to back through the cells; neighbours share the split's exact t.
   void walk(uint32_t lanes, Real t0, Real t1) {
-    Later later[kMaxDepth];
+    Later later[kMostDepth];
     uint32_t waiting = 0;
-    uint32_t at = 0;
+    const Cell* at = tree_.root;
     const int first = std::countr_zero(lanes);
     const uint32_t side[3] = {backward_[0] >> first & 1, backward_[1] >> first & 1,
                               backward_[2] >> first & 1};
@@ -185,18 +184,20 @@ class Packet {
     live_ = lanes;
     t0 = L::select(mask_of(lanes), t0, never);
     while (true) {
-      const Cell& cell = tree_.cells[at];
+      CellLink cell = at->link();
+      if (cell.kind() == CellKind::kOpen) cell = scratch_.refiner->refined(*at);
       const Bool active = hn::Le(t0, t1);
       scratch_.stats.cells += hn::CountTrue(D(), active);
-      if (cell.kind == CellKind::kNode) {
-        const Real t = (set(cell.split) - origin(cell.axis)) * inverse_[cell.axis];
+      if (cell.kind() == CellKind::kNode) {
+        const int axis = cell.axis();
+        const Real t = (set(at->split) - origin(axis)) * inverse_[axis];
         // A ray that runs in the split itself has a NaN here, and either side will do: the near.
         const Bool before_end = t < t1;
         const Bool after_start = hn::Gt(t, t0);
         const Bool wants_far = hn::And(active, before_end);
         const Bool wants_near = hn::And(active, hn::Or(after_start, hn::Not(before_end)));
-        const uint32_t near_cell = cell.index + side[cell.axis],
-                       far_cell = cell.index + 1 - side[cell.axis];
+        const Cell* const near_cell = cell.children() + side[axis];
+        const Cell* const far_cell = cell.children() + 1 - side[axis];
         if (hn::AllFalse(D(), wants_far)) {
           at = near_cell;
         } else if (hn::AllFalse(D(), wants_near)) {
@@ -225,14 +226,14 @@ class Packet {
     }
   }
 
-  void leaf(const Cell& cell, uint32_t lanes, Real t0, Real t1) {
-    switch (cell.kind) {
+  void leaf(CellLink cell, uint32_t lanes, Real t0, Real t1) {
+    switch (cell.kind()) {
       case CellKind::kIgnored:
         known_ &= ~lanes;
         return;
       case CellKind::kEmpty:
       case CellKind::kFull: {
-        const uint32_t here = cell.kind == CellKind::kFull ? lanes : 0;
+        const uint32_t here = cell.kind() == CellKind::kFull ? lanes : 0;
         // A surface on a cell's side is a literal on both sides of it, so this cannot be a change.
         scratch_.stats.disagreements += uint32_t(std::popcount((solid_ ^ here) & known_ & lanes));
         known_ |= lanes;
@@ -240,7 +241,7 @@ class Packet {
         return;
       }
       default:
-        solve(cell.kind, tree_.leaves[cell.index], lanes, t0, t1);
+        solve(cell.kind(), cell.leaf(), lanes, t0, t1);
     }
   }
 
@@ -309,8 +310,7 @@ class Packet {
 
   void solve(CellKind kind, const Leaf& leaf, uint32_t lanes, Real t0, Real t1) {
     constexpr size_t kLanes = hn::MaxLanes(D());
-    const std::span<const LeafLiteral> literals(&tree_.literals[leaf.first_literal],
-                                                leaf.literal_count);
+    const std::span<const LeafLiteral> literals = leaf.literals();
     scratch_.stats.leaves += uint32_t(std::popcount(lanes));
     scratch_.along.resize(std::max(scratch_.along.size(), literals.size() * 4 * kLanes));
     scratch_.signs.resize(std::max(scratch_.signs.size(), literals.size()));

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "subdivide/refine.h"
 #include "trace/cpu/cpu.h"
 #include "trace/cpu/solve.h"
 
@@ -12,8 +13,9 @@ namespace whittle {
 
 /// What one thread needs besides the scene and the cells.
 struct LaneScratch {
-  LaneScratch(const Scene& scene, const CellTree& cells) : solver(scene, cells) {}
+  LaneScratch(const Scene& scene, const CellTree& cells) : refiner(cells), solver(scene) {}
 
+  RefinerLease refiner;
   LeafSolver solver;
   std::vector<double> along;         ///< per literal of a leaf: four vectors, f along the rays
   std::vector<LaneSigns> signs;      ///< per literal

@@ -1,0 +1,425 @@
+#include "subdivide/refine.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+namespace whittle {
+namespace {
+
+/// Formulas that would have no more literals than this get all their primitives expanded.
+constexpr uint32_t kExpandAll = 64;
+
+/// A cell of at least so many operands is split into parts of about kWantedOperands each at once.
+constexpr size_t kWide = 4096, kWantedOperands = 128;
+constexpr int kMostSplitsAtOnce = 12;
+
+/// A cell whose formula has not become shorter, in itself and in its sibling, over this many splits
+/// in a row is a corner or an edge where many surfaces meet: no split will part them.
+uint32_t stall_limit(uint32_t literals) {
+  return std::max(6u, literals);
+}
+
+/// Whether splitting a cell of so many literals saves more than it takes, all counted in visits of
+/// a node by a ray. Each ray saves a part of the literals that it would look at, and makes a visit
+/// and a bit more; the split itself takes so much for each literal of the formula.
+bool pays_off(uint32_t literals, double rays) {
+  constexpr double kSavedEach = 0.32, kMoreVisits = 1.3, kSplitEach = 20;
+  return rays * (kSavedEach * literals - kMoreVisits) > kSplitEach * literals;
+}
+
+/// What a cell takes if it is not split, at most: as a leaf, or open and rounded up to a power of
+/// two.
+size_t bytes_unsplit(size_t literals, size_t tokens) {
+  return 2 * sizeof(OpenCell) + 2 * sizeof(Token) * tokens + 32 * literals;
+}
+
+/// Of the memory that is left each part of a cell gets as much as it has of the literals, and as if
+/// it had so many more: where few surfaces meet for good, many cells are needed too.
+constexpr uint32_t kFew = 16;
+
+/// The link of an open cell that a thread is at.
+constexpr uint64_t kBusy = 1u << 7;
+
+/// Those who wait for another thread look so many times in a row, and then now and then.
+constexpr int kSpins = 200;
+constexpr std::chrono::microseconds kNap{20};
+
+bool has_units(std::span<const Token> formula) {
+  return std::any_of(formula.begin(), formula.end(),
+                     [](Token token) { return token.kind() == TokenKind::kUnit; });
+}
+
+void wait_a_little(int round) {
+  if (round < kSpins)
+    std::this_thread::yield();
+  else
+    std::this_thread::sleep_for(kNap);
+}
+
+}  // namespace
+
+Refiner::Refiner(const Scene& scene, const UnitBoxes& boxes, const SubdivideSettings& settings)
+    : scene_(scene),
+      settings_(settings),
+      region_edge_(max_component(scene.region.size())),
+      simplifier_(scene, boxes, region_edge_ * kCellMargin),
+      analysis_(scene) {}
+
+CellLink Refiner::refined(const Cell& cell, const Helpers* helpers) {
+  for (int round = 0;; ++round) {
+    const CellLink link = cell.link();
+    if (link.kind() != CellKind::kOpen) return link;
+    uint64_t bits = link.bits();
+    if ((bits & kBusy) != 0 || !cell.bits.compare_exchange_strong(bits, bits | kBusy)) {
+      wait_a_little(round);
+      continue;
+    }
+    const OpenCell& open = *static_cast<const OpenCell*>(link.target());
+    try {
+      const CellLink result = refine(cell, open, helpers);
+      cell.bits.store(result.bits(), std::memory_order_release);
+      --stats_.cells[size_t(CellKind::kOpen)];
+      ++stats_.cells[size_t(result.kind())];
+      const size_t bytes = OpenCell::bytes(open.token_count);
+      stats_.memory_bytes -= bytes;
+      open_cells_.give(const_cast<OpenCell*>(&open), bytes);
+      return result;
+    } catch (...) {
+      cell.bits.store(link.bits(), std::memory_order_release);
+      throw;
+    }
+  }
+}
+
+void Refiner::refine_all(const Cell& cell) {
+  // As deep as the tree, not as the model.
+  pending_.assign(1, &cell);
+  while (!pending_.empty()) {
+    const CellLink link = refined(*pending_.back());
+    pending_.pop_back();
+    if (link.kind() != CellKind::kNode) continue;
+    pending_.push_back(link.children() + 1);
+    pending_.push_back(link.children());
+  }
+}
+
+CellLink Refiner::refine(const Cell& cell, const OpenCell& open, const Helpers* helpers) {
+  CellLink link;
+  if (ends(open, link)) return link;
+  if (is_wide(open)) {
+    if (const std::optional<CellLink> grid = split_wide(cell, open, helpers)) return *grid;
+  }
+  return split(cell, open);
+}
+
+/// Whether the cell is not split, and then what it is.
+bool Refiner::ends(const OpenCell& open, CellLink& link) {
+  const double edge = max_component(open.box.size()) / region_edge_;
+  const Box world{open.box.lo + scene_.origin, open.box.hi + scene_.origin};
+  const bool small = settings_.is_small && settings_.is_small(world);
+  const double rays = edge * edge * settings_.rays;
+  const bool is_auto = settings_.leaf_size == kAutoLeafSize;
+  const bool useless =
+      !settings_.is_small && (is_auto ? !pays_off(open.literals, rays)
+                                      : edge * edge * open.literals < settings_.least_use);
+  const size_t split_bytes = 2 * (sizeof(Cell) + bytes_unsplit(open.literals, open.token_count));
+  const bool must_end = small || useless || edge * 0.5 < settings_.smallest_edge ||
+                        open.stalled >= stall_limit(open.literals) || open.depth >= kMostDepth ||
+                        open.memory < split_bytes;
+  std::span<const Token> formula = open.tokens();
+  if (open.literals > kExpandAll && !must_end && !has_few_half_spaces(formula)) return false;
+  if (has_units(formula)) {
+    const Truth truth = simplifier_.simplify(formula, open.box, true, expanded_);
+    if (truth != Truth::kVaries) {
+      link = decided(truth == Truth::kTrue);
+      return true;
+    }
+    formula = expanded_;
+  }
+  analysis_.analyse(formula);
+  if (analysis_.size() == 0) {
+    link = decided(analysis_.constant_value());
+    return true;
+  }
+  const bool simple = is_auto ? !pays_off(analysis_.size(), rays) : simple_enough();
+  if (!must_end && !simple) return false;
+  link =
+      small && settings_.ignore_small && !simple ? CellLink(CellKind::kIgnored, nullptr) : leaf();
+  return true;
+}
+
+CellLink Refiner::decided(bool full) {
+  return {full ? CellKind::kFull : CellKind::kEmpty, nullptr};
+}
+
+CellLink Refiner::leaf() {
+  const CellLink link = analysis_.write(leaves_);
+  const Leaf& leaf = link.leaf();
+  stats_.memory_bytes += leaf.bytes();
+  if (stats_.leaves_by_size.size() <= leaf.literal_count)
+    stats_.leaves_by_size.resize(leaf.literal_count + 1);
+  ++stats_.leaves_by_size[leaf.literal_count];
+  return link;
+}
+
+CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
+  const int axis = split_axis(parent.box.size(), settings_.split, parent.depth);
+  const double at = parent.box.center()[axis];
+  OpenCell child[2];
+  Truth truth[2];
+  size_t unsplit[2] = {0, 0}, weight[2] = {0, 0};
+  for (int side = 0; side < 2; ++side) {
+    child[side].box = parent.box;
+    (side == 0 ? child[side].box.hi : child[side].box.lo)[axis] = at;
+    stats_.classified += parent.token_count;
+    truth[side] = simplifier_.simplify(parent.tokens(), child[side].box,
+                                       parent.literals <= kExpandAll, child_formula_[side]);
+    child[side].literals = expanded_size(scene_, child_formula_[side]);
+    if (truth[side] != Truth::kVaries) continue;
+    unsplit[side] = bytes_unsplit(child[side].literals, child_formula_[side].size());
+    weight[side] = child[side].literals + kFew;
+  }
+  const bool stalls = child[0].literals >= parent.literals && child[1].literals >= parent.literals;
+  const size_t taken = 2 * sizeof(Cell) + unsplit[0] + unsplit[1];
+  const double rest = parent.memory > taken ? double(parent.memory - taken) : 0;
+  Cell* const cells = new_pair();
+  stats_.depth = std::max(stats_.depth, parent.depth + 1);
+  for (int side = 0; side < 2; ++side) {
+    CellLink link = decided(truth[side] == Truth::kTrue);
+    if (truth[side] == Truth::kVaries) {
+      child[side].depth = parent.depth + 1;
+      child[side].stalled = stalls ? parent.stalled + 1 : 0;
+      child[side].memory =
+          unsplit[side] + size_t(rest * double(weight[side]) / double(weight[0] + weight[1]));
+      link = open(child[side], child_formula_[side]);
+    }
+    cells[side].bits.store(link.bits(), std::memory_order_relaxed);
+    ++stats_.cells[size_t(link.kind())];
+  }
+  cell.split = at;
+  return {CellKind::kNode, cells, axis};
+}
+
+/// Whether the cell is worth splitting many times at once. Where small cells end early, each split
+/// has to be looked at.
+bool Refiner::is_wide(const OpenCell& open) const {
+  return open.token_count >= kWide && !settings_.is_small && open.depth < kMostDepth / 2 &&
+         operand_count(open.tokens()) >= kWide;
+}
+
+std::optional<CellLink> Refiner::split_wide(const Cell& cell, const OpenCell& parent,
+                                            const Helpers* helpers) {
+  const auto loop = [&](size_t n, size_t grain, const auto& body) {
+    if (helpers == nullptr)
+      body(0, n, 0);
+    else
+      helpers->workers.for_parts(n, grain, body);
+  };
+  const size_t wanted = parent.token_count / kWantedOperands;
+  const int splits = std::min(int(std::bit_width(wanted)), kMostSplitsAtOnce);
+  const SplitGrid grid = make_grid(parent.box, splits, settings_.split, parent.depth);
+  const std::vector<Formula> dealt =
+      deal_operands(scene_, parent.tokens(), grid, region_edge_ * kCellMargin, loop);
+  if (dealt.empty()) return std::nullopt;
+
+  // Nothing gets longer from here on, so if this fits all does.
+  std::vector<uint32_t> literals(dealt.size());
+  loop(dealt.size(), 1, [&](size_t first, size_t last, size_t) {
+    for (size_t part = first; part < last; ++part)
+      literals[part] = expanded_size(scene_, dealt[part]);
+  });
+  size_t most = 0;
+  for (size_t part = 0; part < dealt.size(); ++part)
+    most += 2 * sizeof(Cell) + bytes_unsplit(literals[part], dealt[part].size());
+  if (most > parent.memory) return std::nullopt;
+
+  // Every part by itself.
+  std::vector<CellLink> links(dealt.size());
+  std::vector<OpenCell*> opened(dealt.size());
+  loop(dealt.size(), 1, [&](size_t first, size_t last, size_t worker) {
+    Refiner& refiner = helpers == nullptr ? *this : helpers->refiner_of(worker);
+    for (size_t part = first; part < last; ++part) {
+      refiner.stats_.classified += dealt[part].size();
+      OpenCell child{grid.part(part), 0, parent.depth + uint32_t(splits), 0, 0, 0};
+      Formula& formula = refiner.child_formula_[0];
+      const Truth truth = refiner.simplifier_.simplify(dealt[part], child.box,
+                                                       literals[part] <= kExpandAll, formula);
+      links[part] = decided(truth == Truth::kTrue);
+      if (truth != Truth::kVaries) continue;
+      child.literals = expanded_size(scene_, formula);
+      links[part] = refiner.open(child, formula);
+      opened[part] = static_cast<OpenCell*>(const_cast<void*>(links[part].target()));
+    }
+  });
+
+  size_t taken = 2 * sizeof(Cell) * dealt.size(), weights = 0;
+  for (const OpenCell* open : opened) {
+    if (open == nullptr) continue;
+    taken += bytes_unsplit(open->literals, open->token_count);
+    weights += open->literals + kFew;
+  }
+  const double rest = parent.memory > taken ? double(parent.memory - taken) : 0;
+  for (OpenCell* open : opened) {
+    if (open == nullptr) continue;
+    open->memory = bytes_unsplit(open->literals, open->token_count) +
+                   size_t(rest * double(open->literals + kFew) / double(weights));
+  }
+  stats_.depth = std::max(stats_.depth, parent.depth + uint32_t(splits));
+  return join(cell, grid, links);
+}
+
+/// The splits that lead to the parts of a grid, the last ones first. What is decided alike on both
+/// sides of a split is not split there.
+CellLink Refiner::join(const Cell& cell, const SplitGrid& grid, std::vector<CellLink> links) {
+  std::vector<double> splits(links.size(), 0);
+  std::array<size_t, 3> count{grid.cuts[0].size() - 1, grid.cuts[1].size() - 1,
+                              grid.cuts[2].size() - 1};
+  std::array<size_t, 3> stride{1, 1, 1};  // of the finest parts
+  for (size_t level = grid.axes.size(); level-- > 0;) {
+    const int axis = grid.axes[level];
+    const size_t along = size_t(axis);
+    std::array<size_t, 3> half = count;
+    half[along] /= 2;
+    std::vector<CellLink> joined(half[0] * half[1] * half[2]);
+    std::vector<double> joined_splits(joined.size());
+    for (size_t z = 0; z < half[2]; ++z)
+      for (size_t y = 0; y < half[1]; ++y)
+        for (size_t x = 0; x < half[0]; ++x) {
+          const std::array<size_t, 3> to{x, y, z};
+          std::array<size_t, 3> low = to;
+          low[along] *= 2;
+          std::array<size_t, 3> high = low;
+          ++high[along];
+          const auto number = [&](const std::array<size_t, 3>& at) {
+            return (at[2] * count[1] + at[1]) * count[0] + at[0];
+          };
+          const size_t a = number(low), b = number(high), at = (z * half[1] + y) * half[0] + x;
+          if (links[a].bits() == links[b].bits()) {
+            joined[at] = links[a];
+            continue;
+          }
+          Cell* const pair = new_pair();
+          for (const auto& [made, from] : {std::pair(pair, a), std::pair(pair + 1, b)}) {
+            made->split = splits[from];
+            made->bits.store(links[from].bits(), std::memory_order_relaxed);
+            ++stats_.cells[size_t(links[from].kind())];
+          }
+          joined[at] = CellLink(CellKind::kNode, pair, axis);
+          joined_splits[at] = grid.cuts[along][high[along] * stride[along]];
+        }
+    links = std::move(joined);
+    splits = std::move(joined_splits);
+    count = half;
+    stride[along] *= 2;
+  }
+  cell.split = splits[0];
+  return links[0];
+}
+
+Cell* Refiner::new_pair() {
+  auto* const pair = static_cast<Cell*>(cells_.allocate(2 * sizeof(Cell), 2 * sizeof(Cell)));
+  ::new (pair) Cell;
+  ::new (pair + 1) Cell;
+  stats_.memory_bytes += 2 * sizeof(Cell);
+  return pair;
+}
+
+CellLink Refiner::open(const OpenCell& what, std::span<const Token> formula) {
+  const size_t bytes = OpenCell::bytes(formula.size());
+  auto* const made = ::new (open_cells_.take(bytes)) OpenCell(what);
+  made->token_count = uint32_t(formula.size());
+  std::uninitialized_copy(formula.begin(), formula.end(), reinterpret_cast<Token*>(made + 1));
+  stats_.memory_bytes += bytes;
+  return {CellKind::kOpen, made};
+}
+
+/// Whether a formula, however long, has no more half-spaces than a truth table can hold: many
+/// copies of one body.
+bool Refiner::has_few_half_spaces(std::span<const Token> formula) const {
+  std::array<uint32_t, kTableLiterals> known;
+  size_t count = 0;
+  const auto is_one_more_known = [&](uint32_t face) {
+    const uint32_t number = scene_.faces[face].literal >> 1;
+    if (std::find(known.begin(), known.begin() + count, number) != known.begin() + count)
+      return true;
+    if (count == known.size()) return false;
+    known[count++] = number;
+    return true;
+  };
+  return std::all_of(formula.begin(), formula.end(), [&](Token token) {
+    if (token.is_group()) return true;
+    if (token.kind() == TokenKind::kFace) return is_one_more_known(token.payload());
+    const Unit& unit = scene_.units[token.payload()];
+    for (uint32_t k = 0; k < unit.face_count; ++k)
+      if (!is_one_more_known(unit.first_face + k)) return false;
+    return true;
+  });
+}
+
+bool Refiner::simple_enough() const {
+  if (settings_.leaf == LeafRule::kHalfSpaces) return analysis_.size() <= settings_.leaf_size;
+  return analysis_.primitive_count() <= settings_.leaf_size || analysis_.is_plain_union();
+}
+
+RefinerPool::RefinerPool(const Scene& scene, const SubdivideSettings& settings)
+    : scene_(scene), settings_(settings), boxes_(scene) {
+  open_root();
+}
+
+void RefinerPool::open_root() {
+  Refiner& refiner = take();
+  CellLink link;
+  if (!scene_.region.is_empty()) {
+    refiner.stats_.classified += scene_.formula.size();
+    Formula formula;
+    const Truth truth =
+        refiner.simplifier_.simplify(scene_.formula, scene_.region,
+                                     expanded_size(scene_, scene_.formula) <= kExpandAll, formula);
+    const OpenCell whole{scene_.region, settings_.memory, 0, 0, expanded_size(scene_, formula), 0};
+    link = truth == Truth::kVaries ? refiner.open(whole, formula)
+                                   : refiner.decided(truth == Truth::kTrue);
+  }
+  root_.bits.store(link.bits(), std::memory_order_relaxed);
+  ++refiner.stats_.cells[size_t(link.kind())];
+  refiner.stats_.memory_bytes += sizeof(Cell);
+  give(refiner);
+}
+
+Refiner& RefinerPool::take() {
+  const std::lock_guard lock(mutex_);
+  if (unused_.empty()) {
+    all_.push_back(std::make_unique<Refiner>(scene_, boxes_, settings_));
+    unused_.reserve(all_.size());
+    return *all_.back();
+  }
+  Refiner& refiner = *unused_.back();
+  unused_.pop_back();
+  return refiner;
+}
+
+void RefinerPool::give(Refiner& refiner) {
+  const std::lock_guard lock(mutex_);
+  unused_.push_back(&refiner);
+}
+
+SubdivideStats RefinerPool::stats() const {
+  SubdivideStats sum;
+  for (const auto& refiner : all_) {
+    const SubdivideStats& part = refiner->stats_;
+    for (size_t kind = 0; kind < sum.cells.size(); ++kind) sum.cells[kind] += part.cells[kind];
+    if (sum.leaves_by_size.size() < part.leaves_by_size.size())
+      sum.leaves_by_size.resize(part.leaves_by_size.size());
+    for (size_t size = 0; size < part.leaves_by_size.size(); ++size)
+      sum.leaves_by_size[size] += part.leaves_by_size[size];
+    sum.depth = std::max(sum.depth, part.depth);
+    sum.classified += part.classified;
+    sum.memory_bytes += part.memory_bytes;
+  }
+  return sum;
+}
+
+}  // namespace whittle
