@@ -48,7 +48,9 @@ struct Step {
 inline constexpr uint32_t kAnswerTrue = UINT32_MAX, kAnswerFalse = UINT32_MAX - 1;
 
 struct Leaf {
-  uint64_t table = 0;  ///< kTable: bit s is the solid where bit i of s says "inside half-space i"
+  /// Up to kTableLiterals literals, whatever the kind: bit s is the solid where bit i of s says
+  /// "inside half-space i".
+  uint64_t table = 0;
   uint32_t first_literal = 0, literal_count = 0;
   uint32_t first_step = 0, step_count = 0;    ///< kProgram
   uint32_t first_token = 0, token_count = 0;  ///< the leaf's formula, kept if an owner is shared

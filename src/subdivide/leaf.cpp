@@ -142,7 +142,7 @@ Cell LeafAnalysis::append_to(CellTree& tree) {
     shared |= owner == kSharedOwner;
     tree.literals.push_back({signed_literals ? signs_[i] : used.half_space * 2, owner});
   }
-  if (kind == CellKind::kTable) leaf.table = table_;
+  if (has_table_) leaf.table = table_;
   if (kind == CellKind::kProgram) {
     leaf.first_step = uint32_t(tree.steps.size());
     append_program(tree);

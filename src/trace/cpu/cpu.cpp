@@ -38,7 +38,7 @@ constexpr TileOrder kTileOrder;
 class CpuTracerImpl final : public CpuTracer {
  public:
   CpuTracerImpl(const Scene& scene, const CellTree& tree, int threads)
-      : scene_(scene), tree_(tree), workers_(threads), scratches_(workers_) {
+      : scene_(scene), tree_(tree), lanes_(scene, tree), workers_(threads), scratches_(workers_) {
     WHITTLE_CHECK(tree.stats.depth < kMaxDepth);
   }
 
@@ -55,7 +55,7 @@ class CpuTracerImpl final : public CpuTracer {
     std::atomic<int> done = 0;
     workers_.for_parts(size_t(columns) * size_t(rows), 1,
                        [&](size_t first, size_t last, size_t worker) {
-                         LaneScratch& scratch = scratches_.of(worker, scene_, tree_);
+                         LaneScratch& scratch = scratches_.of(worker, lanes_);
                          for (int tile = int(first); tile < int(last); ++tile) {
                            trace_tile(camera, rect.x0 + tile % columns * kTile,
                                       rect.y0 + tile / columns * kTile, rect, frame, scratch);
@@ -75,8 +75,8 @@ class CpuTracerImpl final : public CpuTracer {
     }
     workers_.for_parts(
         positions.size(), kProbeChunk, [&](size_t first, size_t last, size_t worker) {
-          trace_lanes(scene_, tree_, camera, positions.subspan(first, last - first),
-                      hits.subspan(first, last - first), scratches_.of(worker, scene_, tree_));
+          trace_lanes(lanes_, camera, positions.subspan(first, last - first),
+                      hits.subspan(first, last - first), scratches_.of(worker, lanes_));
         });
   }
 
@@ -106,8 +106,7 @@ class CpuTracerImpl final : public CpuTracer {
     int x, y;
     for (size_t i = 0; i < positions.size(); ++i)
       if (in_tile(i, x, y)) positions[n++] = {float(x) + 0.5f, float(y) + 0.5f};
-    trace_lanes(scene_, tree_, camera, std::span(positions).first(n), std::span(hits).first(n),
-                scratch);
+    trace_lanes(lanes_, camera, std::span(positions).first(n), std::span(hits).first(n), scratch);
     n = 0;
     for (size_t i = 0; i < positions.size(); ++i)
       if (in_tile(i, x, y)) frame.at(x, y) = hits[n++];
@@ -119,6 +118,7 @@ class CpuTracerImpl final : public CpuTracer {
 
   const Scene& scene_;
   const CellTree& tree_;
+  const LaneScene lanes_;
   uint64_t rays_beside_ = 0;  ///< rays of pixels that cannot see the region
   Workers workers_;
   PerWorker<LaneScratch> scratches_;

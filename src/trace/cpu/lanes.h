@@ -1,5 +1,5 @@
-// Rays in vector lanes: as many rays at once as a vector holds doubles, walked through the cells
-// together. The instruction set is chosen at run time; every one gives the same bits.
+// Rays in vector lanes: tiles of rays that walk through the cells together, as many rays at once as
+// a vector holds doubles. The instruction set is chosen at run time; every one gives the same bits.
 #pragma once
 
 #include <span>
@@ -10,20 +10,52 @@
 
 namespace whittle {
 
+/// Which arithmetic a half-space gets along a ray: by itself alone, so that it is one polynomial in
+/// every cell.
+enum class AlongKind : uint64_t { kPlane, kSphere, kQuadric, kSmallQuadric };
+
+/// A half-space as the lanes read it, a cache line each. Quadrics have the rest in the scene.
+struct alignas(64) LaneHalfSpace {
+  Vec3 center;
+  Vec3 v;  ///< plane: Quadric::b; sphere: v.x is the scale
+  double c = 0;
+  AlongKind kind = AlongKind::kPlane;
+};
+
+/// A scene and its cells, prepared for rays. Both must outlive it.
+struct LaneScene {
+  LaneScene(const Scene& scene, const CellTree& tree);
+
+  const Scene& scene;
+  const CellTree& tree;
+  double edge;                             ///< the longest of the region
+  double together;                         ///< crossings closer than this happen together
+  Box clip;                                ///< rays are cut to it: the region and half the margin
+  std::vector<LaneHalfSpace> half_spaces;  ///< by number
+};
+
+inline constexpr size_t kMaxLanes = 8;
+inline constexpr size_t kTileRays = 64;  ///< rays that walk together
+
+/// A literal of a leaf along the rays of a packet.
+struct alignas(64) LiteralInLanes {
+  double a[kMaxLanes], h[kMaxLanes], k[kMaxLanes], about[kMaxLanes];
+  LaneSigns signs;
+};
+
 /// What one thread needs besides the scene and the cells.
 struct LaneScratch {
-  LaneScratch(const Scene& scene, const CellTree& cells) : solver(scene, cells) {}
+  explicit LaneScratch(const LaneScene& scene) : solver(scene.scene, scene.tree) {}
 
   LeafSolver solver;
-  std::vector<double> along;         ///< per literal of a leaf: four vectors, f along the rays
-  std::vector<LaneSigns> signs;      ///< per literal
-  std::vector<LiteralOnRay> on_ray;  ///< per literal, of one ray
+  std::vector<LiteralInLanes> in_lanes;  ///< per literal of a leaf
+  std::vector<LiteralOnRay> on_ray;      ///< per literal, of one ray
   TraceStats stats;
 };
 
-/// The hits of the rays through `positions`, which had better be close to one another, in order.
-/// hits.size() == positions.size().
-void trace_lanes(const Scene& scene, const CellTree& cells, const Camera& camera,
+/// The hits of the rays through `positions`, in order; each kTileRays of them had better be close
+/// to one another. hits.size() == positions.size().
+void trace_lanes(const LaneScene& scene, const Camera& camera,
                  std::span<const PixelPosition> positions, std::span<Hit> hits,
                  LaneScratch& scratch);
 

@@ -155,11 +155,8 @@ Change LeafSolver::describe(const Leaf& leaf, std::span<const LeafLiteral> liter
     for (const Crossing& crossing : group)
       if (literals[crossing.literal].literal >> 1 == face.literal >> 1) literal = crossing.literal;
   }
-  const HalfSpace& h = scene_.half_spaces[literals[literal].literal >> 1];
-  const Vec3 gradient = normalize(K::quadric_half_gradient(h.f, point - h.center));
-  // The gradient points out of the half-space; that is out of the solid too if both were entered
-  // or both left.
-  return {t, id, bool(is_inside_[literal]) == solid_after ? gradient : -gradient};
+  // Out of the half-space is out of the solid too if both were entered or both left.
+  return {t, id, literals[literal].literal >> 1, bool(is_inside_[literal]) != solid_after};
 }
 
 const Face& LeafSolver::owner(const Leaf& leaf, std::span<const LeafLiteral> literals, Vec3 point,

@@ -19,8 +19,9 @@ enum class Inside : int8_t { kNo, kYes, kUnknown };
 /// Where the solid changes along a ray.
 struct Change {
   double t;
-  uint32_t id;  ///< owner primitive
-  Vec3 normal;  ///< unit, outward from the solid
+  uint32_t id;          ///< owner primitive
+  uint32_t half_space;  ///< whose surface is there
+  bool turned;          ///< the solid is on the other side of it than the half-space
 };
 
 /// A half-space on the way from t0 to t1 of several rays, one bit a ray.
