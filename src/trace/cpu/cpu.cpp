@@ -12,9 +12,11 @@
 namespace whittle {
 namespace {
 
-constexpr int kTile = 16;  ///< pixels; small enough to balance, large enough to cost nothing
+constexpr int kTile = 8;             ///< pixels; a tile's rays walk together
+constexpr int kBlock = 32;           ///< pixels a task; small enough to balance
 constexpr size_t kProbeChunk = 256;  ///< positions a task
 constexpr uint32_t kMaxDepth = 192;  ///< what the walk through the cells has room for
+static_assert(kTile * kTile == kTileRays);
 
 /// Every other bit of `i`: a number along the Z-order curve is x in the even bits, y in the odd.
 constexpr int even_bits(int i) {
@@ -23,17 +25,26 @@ constexpr int even_bits(int i) {
   return result;
 }
 
-/// The pixels of a tile in Z order, so that 2, 4, 8 or 16 in a row are a compact patch.
+/// The pixels of a tile in Z order, so that 2, 4 or 8 in a row are a compact patch.
 struct TileOrder {
-  std::array<uint8_t, size_t(kTile) * kTile> x, y;
+  std::array<uint8_t, kTileRays> x, y;
   constexpr TileOrder() : x(), y() {
-    for (int i = 0; i < kTile * kTile; ++i) {
+    for (int i = 0; i < int(kTileRays); ++i) {
       x[size_t(i)] = uint8_t(even_bits(i));
       y[size_t(i)] = uint8_t(even_bits(i >> 1));
     }
   }
 };
 constexpr TileOrder kTileOrder;
+
+/// One after the other.
+struct InOrder {
+  std::array<uint32_t, kTileRays> place;
+  constexpr InOrder() : place() {
+    for (uint32_t i = 0; i < kTileRays; ++i) place[i] = i;
+  }
+};
+constexpr InOrder kInOrder;
 
 class CpuTracerImpl final : public CpuTracer {
  public:
@@ -45,20 +56,18 @@ class CpuTracerImpl final : public CpuTracer {
   const char* name() const override { return "cpu"; }
 
   Frame render(const Camera& camera, const Progress& progress) override {
-    Frame frame(camera.width, camera.height);
-    if (tree_.region.is_empty()) return frame;
-    const PixelRect rect = pixels_covering(camera, world_region());
-    rays_beside_ += uint64_t(camera.width) * uint64_t(camera.height) -
-                    uint64_t(rect.width()) * uint64_t(rect.height());
-    const int columns = (rect.width() + kTile - 1) / kTile,
-              rows = (rect.height() + kTile - 1) / kTile;
+    Frame frame = Frame::unfilled(camera.width, camera.height);
+    const PixelRect seen =
+        tree_.region.is_empty() ? PixelRect{} : pixels_covering(camera, world_region());
+    const int columns = (camera.width + kBlock - 1) / kBlock,
+              rows = (camera.height + kBlock - 1) / kBlock;
     std::atomic<int> done = 0;
     workers_.for_parts(size_t(columns) * size_t(rows), 1,
                        [&](size_t first, size_t last, size_t worker) {
                          LaneScratch& scratch = scratches_.of(worker, lanes_);
-                         for (int tile = int(first); tile < int(last); ++tile) {
-                           trace_tile(camera, rect.x0 + tile % columns * kTile,
-                                      rect.y0 + tile / columns * kTile, rect, frame, scratch);
+                         for (int block = int(first); block < int(last); ++block) {
+                           trace_block(camera, block % columns * kBlock, block / columns * kBlock,
+                                       seen, frame, scratch);
                            const int now = ++done;
                            if (progress && now % columns == 0)
                              progress(double(now) / (columns * rows));
@@ -75,14 +84,15 @@ class CpuTracerImpl final : public CpuTracer {
     }
     workers_.for_parts(
         positions.size(), kProbeChunk, [&](size_t first, size_t last, size_t worker) {
-          trace_lanes(lanes_, camera, positions.subspan(first, last - first),
-                      hits.subspan(first, last - first), scratches_.of(worker, lanes_));
+          LaneScratch& scratch = scratches_.of(worker, lanes_);
+          for (size_t i = first; i < last; i += kTileRays)
+            trace_lanes(lanes_, camera, positions.subspan(i, std::min(kTileRays, last - i)),
+                        kInOrder.place.data(), &hits[i], scratch);
         });
   }
 
   TraceStats stats() const override {
     TraceStats sum;
-    sum.rays = rays_beside_;
     scratches_.for_each([&](const LaneScratch& scratch) {
       sum.rays += scratch.stats.rays;
       sum.cells += scratch.stats.cells;
@@ -94,22 +104,36 @@ class CpuTracerImpl final : public CpuTracer {
   }
 
  private:
-  void trace_tile(const Camera& camera, int x0, int y0, const PixelRect& rect, Frame& frame,
-                  LaneScratch& scratch) {
-    std::array<PixelPosition, size_t(kTile) * kTile> positions;
-    std::array<Hit, size_t(kTile) * kTile> hits;
+  void trace_block(const Camera& camera, int x0, int y0, const PixelRect& seen, Frame& frame,
+                   LaneScratch& scratch) {
+    const int x1 = std::min(x0 + kBlock, camera.width), y1 = std::min(y0 + kBlock, camera.height);
+    for (int y = y0; y < y1; y += kTile)
+      for (int x = x0; x < x1; x += kTile) {
+        const PixelRect tile{x, y, std::min(x + kTile, x1), std::min(y + kTile, y1)};
+        if (tile.x0 < seen.x1 && tile.x1 > seen.x0 && tile.y0 < seen.y1 && tile.y1 > seen.y0)
+          trace_tile(camera, tile, frame, scratch);
+        else
+          leave_empty(tile, frame, scratch);
+      }
+  }
+
+  void trace_tile(const Camera& camera, const PixelRect& tile, Frame& frame, LaneScratch& scratch) {
+    std::array<PixelPosition, kTileRays> positions;
+    std::array<uint32_t, kTileRays> places;
     size_t n = 0;
-    const auto in_tile = [&](size_t i, int& x, int& y) {
-      x = x0 + kTileOrder.x[i], y = y0 + kTileOrder.y[i];
-      return x < rect.x1 && y < rect.y1;
-    };
-    int x, y;
-    for (size_t i = 0; i < positions.size(); ++i)
-      if (in_tile(i, x, y)) positions[n++] = {float(x) + 0.5f, float(y) + 0.5f};
-    trace_lanes(lanes_, camera, std::span(positions).first(n), std::span(hits).first(n), scratch);
-    n = 0;
-    for (size_t i = 0; i < positions.size(); ++i)
-      if (in_tile(i, x, y)) frame.at(x, y) = hits[n++];
+    for (size_t i = 0; i < kTileRays; ++i) {
+      const int x = kTileOrder.x[i], y = kTileOrder.y[i];
+      positions[n] = {float(tile.x0 + x) + 0.5f, float(tile.y0 + y) + 0.5f};
+      places[n] = uint32_t(y * frame.width + x);
+      n += size_t(x < tile.width() && y < tile.height());
+    }
+    trace_lanes(lanes_, camera, std::span(positions).first(n), places.data(),
+                &frame.at(tile.x0, tile.y0), scratch);
+  }
+
+  static void leave_empty(const PixelRect& tile, Frame& frame, LaneScratch& scratch) {
+    for (int y = tile.y0; y < tile.y1; ++y) std::fill_n(&frame.at(tile.x0, y), tile.width(), Hit{});
+    scratch.stats.rays += uint64_t(tile.width()) * uint64_t(tile.height());
   }
 
   Box world_region() const {
@@ -119,7 +143,6 @@ class CpuTracerImpl final : public CpuTracer {
   const Scene& scene_;
   const CellTree& tree_;
   const LaneScene lanes_;
-  uint64_t rays_beside_ = 0;  ///< rays of pixels that cannot see the region
   Workers workers_;
   PerWorker<LaneScratch> scratches_;
 };

@@ -279,16 +279,13 @@ class Walk {
 };
 
 void trace_positions(const LaneScene& scene, const Camera& camera,
-                     std::span<const PixelPosition> positions, std::span<Hit> hits,
+                     std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
                      LaneScratch& scratch) {
   Tile tile;
-  for (size_t i = 0; i < positions.size(); i += kTileRays) {
-    const size_t n = std::min(kTileRays, positions.size() - i);
-    scratch.stats.rays += n;
-    tile.make_rays(scene, camera, positions.subspan(i, n));
-    Walk(scene, tile, scratch).all();
-    tile.write(scene, hits.subspan(i, n));
-  }
+  scratch.stats.rays += positions.size();
+  tile.make_rays(scene, camera, positions);
+  Walk(scene, tile, scratch).all();
+  tile.write(scene, places, hits);
 }
 
 }  // namespace
@@ -302,9 +299,9 @@ namespace whittle {
 HWY_EXPORT(trace_positions);
 
 void trace_lanes(const LaneScene& scene, const Camera& camera,
-                 std::span<const PixelPosition> positions, std::span<Hit> hits,
+                 std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
                  LaneScratch& scratch) {
-  HWY_DYNAMIC_DISPATCH(trace_positions)(scene, camera, positions, hits, scratch);
+  HWY_DYNAMIC_DISPATCH(trace_positions)(scene, camera, positions, places, hits, scratch);
 }
 
 }  // namespace whittle

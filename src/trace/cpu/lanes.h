@@ -53,10 +53,10 @@ struct LaneScratch {
   TraceStats stats;
 };
 
-/// The hits of the rays through `positions`, in order; each kTileRays of them had better be close
-/// to one another. hits.size() == positions.size().
+/// The hits of the rays through `positions`, at most kTileRays, which had better be close to one
+/// another. That of positions[i] is written to hits[places[i]].
 void trace_lanes(const LaneScene& scene, const Camera& camera,
-                 std::span<const PixelPosition> positions, std::span<Hit> hits,
+                 std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
                  LaneScratch& scratch);
 
 }  // namespace whittle

@@ -8,8 +8,9 @@
 #endif
 
 #include <algorithm>
-#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstring>
 #include <span>
 
 #include "trace/cpu/lane_math-inl.h"
@@ -39,7 +40,7 @@ class Tile {
   void make_rays(const LaneScene& scene, const Camera& camera,
                  std::span<const PixelPosition> positions);
   /// Hits of those that met something, nothing for the others.
-  void write(const LaneScene& scene, std::span<Hit> hits) const;
+  void write(const LaneScene& scene, const uint32_t* places, Hit* hits) const;
 
   HWY_INLINE L::Vec3 origin(size_t packet) const { return load(origin_, packet); }
   HWY_INLINE L::Vec3 direction(size_t packet) const { return load(direction_, packet); }
@@ -75,7 +76,7 @@ class Tile {
             {direction_[0][i], direction_[1][i], direction_[2][i]}};
   }
 
-  size_t packets = 0;
+  size_t rays = 0, packets = 0;
   bool from_within = false;  ///< some ray starts in the region
   double width = 0;          ///< of the tile, across the rays, about where the region's middle is
   // By packet, a bit a lane.
@@ -92,7 +93,8 @@ class Tile {
     return {hn::Load(D(), v[0] + i), hn::Load(D(), v[1] + i), hn::Load(D(), v[2] + i)};
   }
   HWY_INLINE Real make_packet(const LaneScene& scene, const Camera& camera, size_t packet);
-  HWY_INLINE void write_packet(const LaneScene& scene, size_t packet, std::span<Hit> hits) const;
+  HWY_INLINE void write_packet(const LaneScene& scene, size_t packet, const uint32_t* places,
+                               Hit* hits) const;
 
   double at_eye_ = 0;  ///< this far from its start a ray is where the eye is
   alignas(64) Numbers x_, y_;
@@ -111,24 +113,31 @@ HWY_INLINE uint64_t what_is_met(uint32_t id, uint32_t half_space, bool turned) {
 
 inline void Tile::make_rays(const LaneScene& scene, const Camera& camera,
                             std::span<const PixelPosition> positions) {
-  packets = (positions.size() + lanes() - 1) / lanes();
+  rays = positions.size();
+  packets = (rays + lanes() - 1) / lanes();
   const double scale = camera.units_per_pixel();
-  float low_x = positions[0].x, high_x = low_x, low_y = positions[0].y, high_y = low_y;
-  for (size_t i = 0; i < packets * lanes(); ++i) {
-    const PixelPosition& p = positions[std::min(i, positions.size() - 1)];
-    low_x = std::min(low_x, p.x), high_x = std::max(high_x, p.x);
-    low_y = std::min(low_y, p.y), high_y = std::max(high_y, p.y);
-    x_[i] = (double(p.x) - 0.5 * camera.width) * scale;
-    y_[i] = (0.5 * camera.height - double(p.y)) * scale;
+  const double half_width = 0.5 * camera.width, half_height = 0.5 * camera.height;
+  for (size_t i = 0; i < rays; ++i) {
+    x_[i] = (double(positions[i].x) - half_width) * scale;
+    y_[i] = (half_height - double(positions[i].y)) * scale;
   }
-  width = double(std::max(high_x - low_x, high_y - low_y)) * scale;
+  for (size_t i = rays; i < packets * lanes(); ++i) x_[i] = x_[rays - 1], y_[i] = y_[rays - 1];
   at_eye_ = kAtEye * scene.edge;
   Real farthest = set(0);
+  Real low_x = set(kInfinity), high_x = set(-kInfinity), low_y = low_x, high_y = high_x;
   from_within = false;
-  for (size_t packet = 0; packet < packets; ++packet)
+  for (size_t packet = 0; packet < packets; ++packet) {
+    const Real x = hn::Load(D(), x_ + packet * lanes()), y = hn::Load(D(), y_ + packet * lanes());
+    low_x = hn::Min(low_x, x), high_x = hn::Max(high_x, x);
+    low_y = hn::Min(low_y, y), high_y = hn::Max(high_y, y);
     farthest = hn::Max(farthest, hn::Abs(make_packet(scene, camera, packet)));
-  if (!camera.orthographic) width *= hn::GetLane(hn::MaxOfLanes(D(), farthest));
-  const size_t beside = packets * lanes() - positions.size();
+  }
+  const auto most = [](Real v) { return hn::GetLane(hn::MaxOfLanes(D(), v)); };
+  const double extent[2] = {most(high_x) + most(set(0) - low_x),
+                            most(high_y) + most(set(0) - low_y)};
+  width = std::max(extent[0], extent[1]);
+  if (!camera.orthographic) width *= most(farthest);
+  const size_t beside = packets * lanes() - rays;
   if (beside != 0) meets[packets - 1] &= uint8_t((1u << (lanes() - beside)) - 1);
 }
 
@@ -172,15 +181,15 @@ HWY_INLINE Real Tile::make_packet(const LaneScene& scene, const Camera& camera, 
   return shift;
 }
 
-inline void Tile::write(const LaneScene& scene, std::span<Hit> hits) const {
-  for (size_t packet = 0; packet < packets; ++packet) write_packet(scene, packet, hits);
+inline void Tile::write(const LaneScene& scene, const uint32_t* places, Hit* hits) const {
+  for (size_t packet = 0; packet < packets; ++packet) write_packet(scene, packet, places, hits);
 }
 
-HWY_INLINE void Tile::write_packet(const LaneScene& scene, size_t packet,
-                                   std::span<Hit> hits) const {
-  const size_t first = packet * lanes(), count = std::min(lanes(), hits.size() - first);
+HWY_INLINE void Tile::write_packet(const LaneScene& scene, size_t packet, const uint32_t* places,
+                                   Hit* hits) const {
+  const size_t first = packet * lanes(), count = std::min(lanes(), rays - first);
   if (hit[packet] == 0) {
-    std::fill_n(&hits[first], count, Hit{});
+    for (size_t i = first; i < first + count; ++i) hits[places[i]] = Hit{};
     return;
   }
   const Real t = hn::Load(D(), t_ + first);
@@ -214,18 +223,24 @@ HWY_INLINE void Tile::write_packet(const LaneScene& scene, size_t packet,
   const Real inverse = L::select(length > set(0), set(1) / length, set(0));
   // The sign bit of those that are turned.
   const Real sign = hn::BitCast(D(), hn::ShiftLeft<63>(hn::And(what, ones)));
-  alignas(64) double distance[kMaxLanes], x[kMaxLanes], y[kMaxLanes], z[kMaxLanes];
-  hn::Store(t + hn::Load(D(), shift_ + first), D(), distance);
-  hn::Store(hn::Xor(gradient.x * inverse, sign), D(), x);
-  hn::Store(hn::Xor(gradient.y * inverse, sign), D(), y);
-  hn::Store(hn::Xor(gradient.z * inverse, sign), D(), z);
+  const hn::Rebind<float, D> floats;
+  const hn::Rebind<uint32_t, D> ids;
+  const Bool hits_it = mask_of(hit[packet]);
+  const auto fact = [&](Real v, double otherwise) {
+    return hn::DemoteTo(floats, L::select(hits_it, v, set(otherwise)));
+  };
+  const auto id = hn::TruncateTo(
+      ids, hn::IfThenElseZero(hn::RebindMask(Words(), hits_it), hn::ShiftRight<32>(what)));
+  alignas(64) float most_facts[4 * kMaxLanes], z[kMaxLanes];
+  hn::StoreInterleaved4(fact(t + hn::Load(D(), shift_ + first), kInfinity), hn::BitCast(floats, id),
+                        fact(hn::Xor(gradient.x * inverse, sign), 0),
+                        fact(hn::Xor(gradient.y * inverse, sign), 0), floats, most_facts);
+  hn::Store(fact(hn::Xor(gradient.z * inverse, sign), 0), floats, z);
+  static_assert(sizeof(Hit) == 5 * sizeof(float) && offsetof(Hit, normal.z) == 4 * sizeof(float));
   for (size_t i = 0; i < count; ++i) {
-    if (hit[packet] >> i & 1)
-      hits[first + i] = {float(distance[i]),
-                         uint32_t(what_[first + i] >> 32),
-                         {float(x[i]), float(y[i]), float(z[i])}};
-    else
-      hits[first + i] = Hit{};
+    char* const to = reinterpret_cast<char*>(&hits[places[first + i]]);
+    std::memcpy(to, &most_facts[4 * i], 4 * sizeof(float));
+    std::memcpy(to + 4 * sizeof(float), &z[i], sizeof(float));
   }
 }
 
