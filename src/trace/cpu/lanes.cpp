@@ -187,18 +187,20 @@ class Walk {
   }
 
   void leaf(const Cell& cell, const Planes& planes) {
+    Visitors& visitors = leaves_.visitors;
+    visitors.count = 0;
+    const uint32_t nothing_new = cell.kind == CellKind::kEmpty ? ~0u : 0;
     for (uint64_t left = running_packets_; left != 0; left &= left - 1) {
       const auto p = size_t(std::countr_zero(left));
-      if (cell.kind == CellKind::kEmpty &&
-          (running_[p] & (tile_.solid[p] | ~uint32_t(tile_.known[p]))) == 0)
+      // Who knows that it is in empty space learns nothing in an empty cell.
+      if ((running_[p] & ~(nothing_new & tile_.known[p] & ~uint32_t(tile_.solid[p]))) == 0)
         continue;
       Real t0, t1;
       way_through(planes, p, t0, t1);
-      const uint32_t lanes = bits(t0 < t1) & running_[p];
-      if (lanes == 0) continue;
-      leaves_.pass(cell, p, lanes, t0, t1);
-      stop(p);
+      visitors.add(p, bits(t0 < t1) & running_[p], t0, t1);
     }
+    leaves_.pass(cell);
+    for (size_t i = 0; i < visitors.count; ++i) stop(visitors.packet[i]);
   }
 
   /// Who met something runs no more.
@@ -247,11 +249,10 @@ class Walk {
         }
         continue;
       }
-      const uint32_t lanes = bits(active);
-      if (lanes != 0) {
-        leaves_.pass(cell, packet, lanes, t0, t1);
-        stop(packet);
-      }
+      leaves_.visitors.count = 0;
+      leaves_.visitors.add(packet, bits(active), t0, t1);
+      leaves_.pass(cell);
+      stop(packet);
       // The next cell that some ray still needs.
       while (true) {
         if (waiting == 0 || running_[packet] == 0) return;

@@ -37,19 +37,14 @@ struct LaneScene {
 inline constexpr size_t kMaxLanes = 8;
 inline constexpr size_t kTileRays = 64;  ///< rays that walk together
 
-/// A literal of a leaf along the rays of a packet.
-struct alignas(64) LiteralInLanes {
-  double a[kMaxLanes], h[kMaxLanes], k[kMaxLanes], about[kMaxLanes];
-  LaneSigns signs;
-};
-
 /// What one thread needs besides the scene and the cells.
 struct LaneScratch {
   explicit LaneScratch(const LaneScene& scene) : solver(scene.scene, scene.tree) {}
 
   LeafSolver solver;
-  std::vector<LiteralInLanes> in_lanes;  ///< per literal of a leaf
-  std::vector<LiteralOnRay> on_ray;      ///< per literal, of one ray
+  // Per literal of the leaf at hand.
+  std::vector<LaneSigns> signs;      ///< one for each packet
+  std::vector<LiteralOnRay> on_ray;  ///< of one ray
   TraceStats stats;
 };
 

@@ -24,11 +24,23 @@ struct Change {
   bool turned;          ///< the solid is on the other side of it than the half-space
 };
 
-/// A half-space on the way from t0 to t1 of several rays, one bit a ray.
-struct LaneSigns {
-  uint32_t inside = 0;   ///< the ray is inside the half-space at t0
-  uint32_t changes = 0;  ///< and not at t1, or the reverse: one crossing between
-  uint32_t bends = 0;    ///< it leaves and comes back (or enters and leaves): two crossings
+/// A half-space on the way from t0 to t1 of several rays, one bit a ray. One word: what is written
+/// in parts and read as a whole is waited for.
+class LaneSigns {
+ public:
+  LaneSigns() = default;
+  LaneSigns(uint32_t inside, uint32_t changes, uint32_t bends)
+      : word_(inside | changes << 8 | bends << 16) {}
+
+  /// The ray is inside the half-space at t0.
+  uint32_t inside() const { return word_ & 0xff; }
+  /// And not at t1, or the reverse: one crossing between.
+  uint32_t changes() const { return word_ >> 8 & 0xff; }
+  /// It leaves and comes back (or enters and leaves): two crossings.
+  uint32_t bends() const { return word_ >> 16; }
+
+ private:
+  uint32_t word_ = 0;
 };
 
 /// The same for one ray.
