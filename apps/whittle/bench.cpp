@@ -34,9 +34,10 @@ using Clock = std::chrono::steady_clock;
 
 constexpr CommandHelp kHelp = {
     "whittle bench",
-    "Measures every stage: the median milliseconds of parse, lower, subdivide, trace,\n"
-    "shade, and cold: from the lowered model to the finished picture (subdivision,\n"
-    "trace and shading without antialiasing). The picture is compared with the\n"
+    "Measures every stage: the median milliseconds of parse, lower, subdivide (all\n"
+    "cells), trace (with its cells there), shade, and cold: from the lowered model to\n"
+    "the finished picture (cells made where rays come, trace, and shading without\n"
+    "antialiasing). The picture is compared with the\n"
     "oracle's first; if it is wrong, nothing is measured.",
     "FILE... [options]",
     "Examples:\n"
@@ -120,15 +121,26 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
       !right) {
     return right.error();
   }
+  TraceStats stats;
   for (int i = 0; i < a.repeat; ++i) {
     const Stopwatch watch;
     renderer->prepare(camera);
     const Frame frame = renderer->trace(camera);
     const Picture picture = renderer->shade(frame, camera, ShadeSettings{}, 1);
     cold.push_back(watch.milliseconds());
-    subdivide.push_back(renderer->times().subdivide);
-    trace.push_back(renderer->times().trace);
     shade.push_back(renderer->times().shade);
+    stats = renderer->trace_stats();
+    // Again, now that all the cells that it needs are there.
+    renderer->trace(camera);
+    trace.push_back(renderer->times().trace);
+  }
+  RendererSettings all_cells = a.renderer;
+  all_cells.eager = true;
+  Result<Renderer> eager = Renderer::make(read->model, all_cells);
+  if (!eager) return eager.error();
+  for (int i = 0; i < a.repeat; ++i) {
+    eager->prepare(camera);
+    subdivide.push_back(eager->times().subdivide);
   }
 
   json["backend"] = name_of(backend_choices(), renderer->backend());
@@ -145,12 +157,16 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   json["peak_memory_bytes"] = peak_memory_bytes();
   // The oracle has neither cells nor half-spaces, and what it does for a ray is always all.
   const Scene* scene = renderer->scene();
-  const CellTree* cells = renderer->cells();
-  const TraceStats stats = renderer->trace_stats();
+  const SubdivideStats cells =
+      eager->cells() != nullptr ? statistics_of(*eager->cells()) : SubdivideStats{};
+  const SubdivideStats looked_at =
+      renderer->cells() != nullptr ? statistics_of(*renderer->cells()) : SubdivideStats{};
   const auto rays = uint64_t(camera.width) * uint64_t(camera.height);
   json["half_spaces"] = scene != nullptr ? scene->half_spaces.size() : 0;
-  json["cells"] = cells != nullptr ? cells->cells.size() : 0;
-  json["leaves"] = cells != nullptr ? cells->leaves.size() : 0;
+  json["cells"] = cells.cell_count();
+  json["leaves"] = cells.leaf_count();
+  json["cells_bytes"] = cells.memory_bytes;
+  json["cells_looked_at"] = looked_at.cell_count();
   json["rays"] = rays;
   json["cell_visits_per_ray"] = double(stats.cells) / double(rays);
   json["leaf_visits_per_ray"] = double(stats.leaves) / double(rays);
@@ -210,7 +226,8 @@ std::string describe(const Json& m) {
                    number(fmt::format("{}_ms", stage).c_str()));
   }
   fmt::format_to(out, "  {:<12}{:>10}\n", "half-spaces", count("half_spaces"));
-  fmt::format_to(out, "  {:<12}{:>10}    {} leaves\n", "cells", count("cells"), count("leaves"));
+  fmt::format_to(out, "  {:<12}{:>10}    {} leaves, {}; rays met {}\n", "cells", count("cells"),
+                 count("leaves"), describe_bytes(count("cells_bytes")), count("cells_looked_at"));
   fmt::format_to(out, "  {:<12}{:>10}    {:.2f} cells, {:.2f} leaves, {:.2f} half-spaces a ray\n",
                  "rays", count("rays"), number("cell_visits_per_ray"),
                  number("leaf_visits_per_ray"), number("literals_per_ray"));
@@ -240,7 +257,7 @@ int bench_command(Arguments arguments) {
   if (std::ranges::find(a.files, "-") != a.files.end()) {
     return report({ErrorKind::kUsage, "standard input cannot be read again; bench wants files"});
   }
-  apply(a.subdivision, a.loading.limits, a.renderer);
+  apply(a.subdivision, a.renderer);
 
   Json all = Json::array();
   for (const std::string& file : a.files) {

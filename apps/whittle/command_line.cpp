@@ -12,6 +12,7 @@
 #include "console.h"
 #include "option_group.h"
 #include "progress.h"
+#include "statistics.h"
 
 namespace whittle {
 namespace {
@@ -82,7 +83,7 @@ void add_loading_options(CLI::App& app, Loading& loading) {
 }
 
 ReadOptions read_options(const Loading& loading) {
-  return {.curves = loading.curves, .polish = loading.polish, .limits = loading.limits.reading};
+  return {.curves = loading.curves, .polish = loading.polish, .limits = loading.limits};
 }
 
 Status say_warnings(const Read& read, const Loading& loading) {
@@ -200,16 +201,22 @@ void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments) {
   group.add_choice("--small-cells", small_cells_choices(), "fate of small cells",
                    "below that threshold: {}",
                    [&](bool ignore) { arguments.ignore_small = ignore; });
+  group.add_text("--memory", "SIZE",
+                 fmt::format("what cells may take ({}), as in 100K, 100M, 2G; with\n"
+                             "less the picture takes longer, but is the same",
+                             describe_bytes(SubdivideSettings{}.memory)),
+                 [&](const std::string& text) {
+                   constexpr uint64_t kMostMemory = uint64_t(1) << 50;
+                   arguments.memory = parse_bytes("--memory", text, kMostMemory);
+                 });
   group.add_flag("--paper", arguments.paper,
                  "the paper's rules: --split xyz, two primitives a leaf\n"
                  "(--leaf-size 2) or a union of any number,\n"
                  "--pixel-threshold 1, --small-cells ignore");
 }
 
-void apply(const SubdivisionArguments& arguments, const Limits& limits,
-           RendererSettings& settings) {
+void apply(const SubdivisionArguments& arguments, RendererSettings& settings) {
   SubdivideSettings& s = settings.subdivide;
-  s.max_cells = limits.cells;
   if (arguments.paper) {
     s.leaf_size = 2;
     s.leaf = LeafRule::kPrimitives;
@@ -218,6 +225,7 @@ void apply(const SubdivisionArguments& arguments, const Limits& limits,
     settings.pixel_threshold = 1;
   }
   if (arguments.leaf_size != 0) s.leaf_size = arguments.leaf_size;
+  s.memory = arguments.memory.value_or(s.memory);
   s.split = arguments.split.value_or(s.split);
   s.ignore_small = arguments.ignore_small.value_or(s.ignore_small);
   settings.pixel_threshold = arguments.pixel_threshold.value_or(settings.pixel_threshold);

@@ -34,7 +34,7 @@ std::optional<int> parse(CLI::App& app, Arguments arguments);
 struct Loading {
   Curves curves = Curves::kAuto;
   bool polish = true;
-  Limits limits;
+  ReadLimits limits;
   bool strict = false;
   bool quiet = false;
 };
@@ -67,11 +67,12 @@ struct SubdivisionArguments {
   bool paper = false;
   uint32_t leaf_size = 0;  ///< 0: as the rules have it
   std::optional<SplitRule> split;
+  std::optional<size_t> memory;
   std::optional<double> pixel_threshold;
   std::optional<bool> ignore_small;
 };
 void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments);
 /// The paper's rules if asked for, and then what was asked for one by one.
-void apply(const SubdivisionArguments& arguments, const Limits& limits, RendererSettings& settings);
+void apply(const SubdivisionArguments& arguments, RendererSettings& settings);
 
 }  // namespace whittle

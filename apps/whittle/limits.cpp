@@ -24,55 +24,52 @@ constexpr int64_t kMost = 1'000'000'000;
 // Below this not even the threads can be started.
 constexpr uint64_t kLeastMemory = uint64_t(64) << 20;
 
-/// Bytes, or with K, M or G behind them 1024, 1024^2 or 1024^3 of them.
-uint64_t parse_bytes(const std::string& text, uint64_t most) {
-  constexpr std::string_view kUnits = "KMG";
-  const size_t unit = text.empty() ? std::string_view::npos : kUnits.find(text.back());
-  const bool has_unit = unit != std::string_view::npos;
-  const std::string_view digits = std::string_view(text).substr(0, text.size() - size_t(has_unit));
-  const int shift = has_unit ? 10 * int(unit + 1) : 0;
-  return uint64_t(parse_count(kOption, digits, 1, int64_t(most >> shift))) << shift;
-}
-
 uint64_t parse_memory(const std::string& text) {
   constexpr uint64_t kMostMemory = uint64_t(1) << 50;
-  const uint64_t bytes = parse_bytes(text, kMostMemory);
+  const uint64_t bytes = parse_bytes(kOption, text, kMostMemory);
   if (bytes < kLeastMemory) {
     refuse(kOption, fmt::format("memory must be at least {}M, not {}", kLeastMemory >> 20, text));
   }
   return bytes;
 }
 
-void set(Limits& limits, const std::string& text) {
+void set(ReadLimits& limits, const std::string& text) {
   const size_t equals = text.find('=');
   const std::string name = text.substr(0, equals);
   const std::string value = equals == std::string::npos ? "" : text.substr(equals + 1);
   const auto count = [&](int64_t most) { return size_t(parse_count(kOption, value, 1, most)); };
   if (name == "bytes") {
-    limits.reading.bytes = size_t(parse_bytes(value, kMostTextBytes));
+    limits.bytes = size_t(parse_bytes(kOption, value, kMostTextBytes));
   } else if (name == "depth") {
-    limits.reading.depth = count(kMost);
+    limits.depth = count(kMost);
   } else if (name == "nodes") {
-    limits.reading.nodes = count(kMost);
+    limits.nodes = count(kMost);
   } else if (name == "values") {
-    limits.reading.values = count(kMost);
+    limits.values = count(kMost);
   } else if (name == "facets") {
-    limits.reading.facets = count(kMost);
-  } else if (name == "cells") {
-    limits.cells = count(kMostCells);
+    limits.facets = count(kMost);
   } else if (name == "memory") {
     limit_memory(parse_memory(value));
   } else {
     refuse(kOption, fmt::format("unknown limit '{}'; there are: bytes, depth, nodes, values, "
-                                "facets, cells, memory; as in {} depth=1000",
+                                "facets, memory; as in {} depth=1000",
                                 name, kOption));
   }
 }
 
 }  // namespace
 
-void add_limit_option(CLI::App& app, Limits& limits) {
-  const Limits defaults;
+uint64_t parse_bytes(const char* option, const std::string& text, uint64_t most) {
+  constexpr std::string_view kUnits = "KMG";
+  const size_t unit = text.empty() ? std::string_view::npos : kUnits.find(text.back());
+  const bool has_unit = unit != std::string_view::npos;
+  const std::string_view digits = std::string_view(text).substr(0, text.size() - size_t(has_unit));
+  const int shift = has_unit ? 10 * int(unit + 1) : 0;
+  return uint64_t(parse_count(option, digits, 1, int64_t(most >> shift))) << shift;
+}
+
+void add_limit_option(CLI::App& app, ReadLimits& limits) {
+  const ReadLimits defaults;
   app.add_option_function<std::vector<std::string>>(
          kOption,
          [&limits](const std::vector<std::string>& all) {
@@ -81,10 +78,10 @@ void add_limit_option(CLI::App& app, Limits& limits) {
          fmt::format("what is too much; and --limit again for more:\n"
                      "bytes={}, depth={}, nodes={},\n"
                      "values={} (of one statement), facets={},\n"
-                     "cells={}, memory=SIZE (what the machine has);\n"
+                     "memory=SIZE (what the machine has);\n"
                      "of bytes and memory also as in 100K, 100M, 2G",
-                     defaults.reading.bytes, defaults.reading.depth, defaults.reading.nodes,
-                     defaults.reading.values, defaults.reading.facets, defaults.cells))
+                     defaults.bytes, defaults.depth, defaults.nodes, defaults.values,
+                     defaults.facets))
       ->allow_extra_args(false)
       ->type_name("NAME=VALUE")
       ->group("Machine");

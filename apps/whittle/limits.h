@@ -6,7 +6,6 @@
 #include <string>
 
 #include "io/read.h"
-#include "subdivide/subdivide.h"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): CLI11 has named it
 class App;
@@ -14,13 +13,11 @@ class App;
 
 namespace whittle {
 
-struct Limits {
-  ReadLimits reading;
-  size_t cells = SubdivideSettings{}.max_cells;
-};
+/// Bytes, or with K, M or G behind them 1024, 1024^2 or 1024^3 of them; 1 to `most`, or refuses.
+uint64_t parse_bytes(const char* option, const std::string& text, uint64_t most);
 
 /// --limit, which may be given again for another name. That of the memory is taken at once.
-void add_limit_option(CLI::App& app, Limits& limits);
+void add_limit_option(CLI::App& app, ReadLimits& limits);
 
 /// From here on this process has no more memory than that, whatever it is for: std::bad_alloc. The
 /// system counts (RLIMIT_DATA). Not under the sanitizers, which take terabytes for themselves.

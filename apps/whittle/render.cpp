@@ -167,7 +167,7 @@ Status render(RenderArguments& a) {
   }
   RunTimes times{.read = milliseconds_since(start)};
 
-  apply(a.subdivision, a.loading.limits, a.renderer);
+  apply(a.subdivision, a.renderer);
   a.shading.background = !a.no_background;
   Result<Renderer> renderer = Renderer::make(model, a.renderer);
   if (!renderer) return renderer.error();

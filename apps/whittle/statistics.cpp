@@ -10,20 +10,22 @@ namespace whittle {
 namespace {
 
 constexpr std::array<const char*, kCellKinds> kKindNames = {
-    "nodes", "empty", "full", "ignored", "conjunctions", "disjunctions", "tables", "programs"};
+    "nodes",        "empty",  "full",     "ignored", "conjunctions",
+    "disjunctions", "tables", "programs", "open"};
 
 using Lines = std::back_insert_iterator<std::string>;
 
 void add_cells(Lines out, const CellTree& cells) {
-  const SubdivideStats& s = cells.stats;
-  fmt::format_to(out, "cells         {:>12}   depth {}, {} operands classified, {}\n",
-                 cells.cells.size(), s.depth, s.classified, describe_bytes(s.memory_bytes));
+  const SubdivideStats s = statistics_of(cells);
+  const uint64_t count = s.cell_count();
+  fmt::format_to(out, "cells         {:>12}   depth {}, {} operands classified, {}\n", count,
+                 s.depth, s.classified, describe_bytes(s.memory_bytes));
   for (size_t kind = 0; kind < kKindNames.size(); ++kind) {
     if (s.cells[kind] == 0) continue;
     fmt::format_to(out, "  {:<12}{:>12}   {:5.1f} %\n", kKindNames[kind], s.cells[kind],
-                   100 * double(s.cells[kind]) / double(cells.cells.size()));
+                   100 * double(s.cells[kind]) / double(count));
   }
-  fmt::format_to(out, "leaves        {:>12}   by half-spaces:", cells.leaves.size());
+  fmt::format_to(out, "leaves        {:>12}   by half-spaces:", s.leaf_count());
   // The tail is long and thin.
   constexpr size_t kShown = 12;
   uint64_t more = 0;

@@ -75,9 +75,9 @@ struct RenderOptions {
 
   std::string backend = "auto";  ///< "auto", "cpu" or "oracle"
   int threads = 0;               ///< 0: all. The result does not depend on it.
-  /// Cells that space may be cut into, up to 2^28; fewer take less memory, and more time for every
-  /// ray. The result does not depend on it.
-  std::size_t most_cells = 20'000'000;
+  /// What the cells that space is cut into may take, bytes; with less every ray takes more time.
+  /// The result does not depend on it.
+  std::size_t cell_memory = std::size_t(1) << 30;
 };
 
 /// A picture and its facts; width * height entries each, rows from the top, each from the left.

@@ -1,9 +1,15 @@
 // The cells: a binary tree of boxes, each leaf with a formula that is right inside it and as short
 // as can be. View-independent, unless small cells are decided by a pixel threshold.
+//
+// A tree is lazy: cells start open, and whoever meets one first refines it (refine.h). Cells and
+// leaves never move, and what is no longer open never changes, so any number of threads may read.
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "lower/scene.h"
@@ -19,17 +25,12 @@ enum class CellKind : uint8_t {
   kDisjunction,  ///< leaf: if inside any of them
   kTable,        ///< leaf: a truth table over at most kTableLiterals literals
   kProgram,      ///< leaf: a jump program over any number of literals
+  kOpen,         ///< not known yet: Refiner::refined() makes it one of the others
 };
-inline constexpr int kCellKinds = 8;
+inline constexpr int kCellKinds = 9;
 inline constexpr uint32_t kTableLiterals = 6;
-
-/// 16 bytes. The box is implied: the region, cut by every split on the way down.
-struct Cell {
-  double split = 0;    ///< kNode: where the axis is cut; the first child lies below
-  uint32_t index = 0;  ///< kNode: first child in CellTree::cells, the second follows; leaf: number
-  CellKind kind = CellKind::kEmpty;
-  uint8_t axis = 0;
-};
+/// Splits on the longest way down are no more than this, whatever the rules.
+inline constexpr uint32_t kMostDepth = 160;
 
 /// One literal of a leaf. In conjunctions and disjunctions it counts as written; tables and
 /// programs go by whether a point is inside the half-space itself.
@@ -47,31 +48,111 @@ struct Step {
 };
 inline constexpr uint32_t kAnswerTrue = UINT32_MAX, kAnswerFalse = UINT32_MAX - 1;
 
+/// The head of a leaf's block of memory; literals, steps and tokens stand behind it in a row.
 struct Leaf {
   /// Up to kTableLiterals literals, whatever the kind: bit s is the solid where bit i of s says
   /// "inside half-space i".
   uint64_t table = 0;
-  uint32_t first_literal = 0, literal_count = 0;
-  uint32_t first_step = 0, step_count = 0;    ///< kProgram
-  uint32_t first_token = 0, token_count = 0;  ///< the leaf's formula, kept if an owner is shared
+  uint32_t literal_count = 0;
+  uint32_t step_count = 0;   ///< kProgram
+  uint32_t token_count = 0;  ///< the leaf's formula, kept if an owner is shared
+
+  std::span<const LeafLiteral> literals() const {
+    return {reinterpret_cast<const LeafLiteral*>(this + 1), literal_count};
+  }
+  std::span<const Step> steps() const {
+    return {reinterpret_cast<const Step*>(literals().data() + literal_count), step_count};
+  }
+  std::span<const Token> tokens() const {
+    return {reinterpret_cast<const Token*>(steps().data() + step_count), token_count};
+  }
+  size_t bytes() const {
+    return sizeof(Leaf) + literal_count * sizeof(LeafLiteral) + step_count * sizeof(Step) +
+           token_count * sizeof(Token);
+  }
 };
 
+struct Cell;
+
+/// What a cell is and where to go on from it, in one word.
+class CellLink {
+ public:
+  CellLink() = default;
+  CellLink(CellKind kind, const void* target, int axis = 0)
+      : bits_(uint64_t(reinterpret_cast<uintptr_t>(target)) << 8 | uint64_t(axis) << 4 |
+              uint64_t(kind)) {}
+  explicit CellLink(uint64_t bits) : bits_(bits) {}
+
+  uint64_t bits() const { return bits_; }
+  CellKind kind() const { return CellKind(bits_ & 15); }
+  /// kNode: which axis is cut.
+  int axis() const { return int(bits_ >> 4 & 3); }
+  /// kNode: the first of two cells in a row; it lies below the split.
+  const Cell* children() const { return static_cast<const Cell*>(target()); }
+  /// Of the four kinds of leaves.
+  const Leaf& leaf() const { return *static_cast<const Leaf*>(target()); }
+  const void* target() const { return reinterpret_cast<const void*>(bits_ >> 8); }
+
+ private:
+  uint64_t bits_ = uint64_t(CellKind::kEmpty);
+};
+
+/// 16 bytes. The box is implied: the region, cut by every split on the way down.
+struct Cell {
+  mutable double split = 0;  ///< kNode: where the axis is cut
+  mutable std::atomic<uint64_t> bits{CellLink().bits()};
+
+  CellLink link() const { return CellLink(bits.load(std::memory_order_acquire)); }
+};
+static_assert(sizeof(Cell) == 16);
+
+/// What there is so far.
 struct SubdivideStats {
   std::array<uint64_t, kCellKinds> cells{};  ///< by CellKind
   std::vector<uint64_t> leaves_by_size;      ///< leaves with i literals
   uint32_t depth = 0;                        ///< splits on the longest way down
   uint64_t classified = 0;                   ///< operands looked at
   size_t memory_bytes = 0;
+
+  uint64_t cell_count() const;
+  uint64_t leaf_count() const;
 };
 
+class RefinerPool;
+
+/// Copies share the cells.
 struct CellTree {
   Box region;
-  std::vector<Cell> cells;  ///< cells[0] is the region
-  std::vector<Leaf> leaves;
-  std::vector<LeafLiteral> literals;
-  std::vector<Step> steps;
-  Formula tokens;
-  SubdivideStats stats;
+  const Cell* root = nullptr;                 ///< the region's cell; null without a region
+  std::shared_ptr<RefinerPool> refiner_pool;  ///< owns the cells, knows how to refine them
 };
+
+/// Not while any cell is being refined.
+SubdivideStats statistics_of(const CellTree& tree);
+
+/// Calls visit(link, box) for every cell that is not split, open ones included, in a fixed order:
+/// depth first, lower halves first.
+template <class Visit>
+void for_each_leaf(const CellTree& tree, Visit&& visit) {
+  struct Item {
+    const Cell* cell;
+    Box box;
+  };
+  std::vector<Item> stack;
+  if (tree.root != nullptr) stack.push_back({tree.root, tree.region});
+  while (!stack.empty()) {
+    const Item item = stack.back();
+    stack.pop_back();
+    const CellLink link = item.cell->link();
+    if (link.kind() != CellKind::kNode) {
+      visit(link, item.box);
+      continue;
+    }
+    Item low{link.children(), item.box}, high{link.children() + 1, item.box};
+    low.box.hi[link.axis()] = high.box.lo[link.axis()] = item.cell->split;
+    stack.push_back(high);
+    stack.push_back(low);
+  }
+}
 
 }  // namespace whittle

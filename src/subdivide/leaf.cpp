@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <memory>
 
 #include "lower/evaluate.h"
 
@@ -129,38 +130,33 @@ CellKind LeafAnalysis::signs(std::vector<Literal>& out) const {
   return has_and ? CellKind::kConjunction : CellKind::kDisjunction;
 }
 
-Cell LeafAnalysis::append_to(CellTree& tree) {
-  Leaf leaf;
-  leaf.first_literal = uint32_t(tree.literals.size());
-  leaf.literal_count = size();
+CellLink LeafAnalysis::write(Arena& arena) {
   const CellKind kind = signs(signs_);
   const bool signed_literals = kind == CellKind::kConjunction || kind == CellKind::kDisjunction;
-  bool shared = false;
+  steps_.clear();
+  if (kind == CellKind::kProgram) make_program();
+  const bool shared = std::any_of(half_spaces_.begin(), half_spaces_.end(),
+                                  [](const Used& used) { return used.owner == 0; });
+  Leaf leaf;
+  leaf.table = has_table_ ? table_ : 0;
+  leaf.literal_count = size();
+  leaf.step_count = uint32_t(steps_.size());
+  leaf.token_count = shared ? uint32_t(formula_.size()) : 0;
+
+  Leaf* const written = ::new (arena.allocate(leaf.bytes(), alignof(Leaf))) Leaf(leaf);
+  auto* literal = const_cast<LeafLiteral*>(written->literals().data());
   for (uint32_t i = 0; i < size(); ++i) {
     const Used& used = half_spaces_[i];
     const uint32_t owner = used.owner == 0 ? kSharedOwner : scene_.units[used.owner - 1].id;
-    shared |= owner == kSharedOwner;
-    tree.literals.push_back({signed_literals ? signs_[i] : used.half_space * 2, owner});
+    ::new (literal + i) LeafLiteral{signed_literals ? signs_[i] : used.half_space * 2, owner};
   }
-  if (has_table_) leaf.table = table_;
-  if (kind == CellKind::kProgram) {
-    leaf.first_step = uint32_t(tree.steps.size());
-    append_program(tree);
-    leaf.step_count = uint32_t(tree.steps.size()) - leaf.first_step;
-  }
-  if (shared) {
-    leaf.first_token = uint32_t(tree.tokens.size());
-    leaf.token_count = uint32_t(formula_.size());
-    tree.tokens.insert(tree.tokens.end(), formula_.begin(), formula_.end());
-  }
-  Cell cell;
-  cell.kind = kind;
-  cell.index = uint32_t(tree.leaves.size());
-  tree.leaves.push_back(leaf);
-  return cell;
+  std::uninitialized_copy(steps_.begin(), steps_.end(), const_cast<Step*>(written->steps().data()));
+  std::uninitialized_copy_n(formula_.begin(), leaf.token_count,
+                            const_cast<Token*>(written->tokens().data()));
+  return {kind, written};
 }
 
-void LeafAnalysis::append_program(CellTree& tree) const {
+void LeafAnalysis::make_program() {
   // A literal's step number is the number of literals before it, so the place where an operand ends
   // tells the step that follows it.
   std::vector<uint32_t> step_at(formula_.size() + 1, 0);
@@ -189,7 +185,7 @@ void LeafAnalysis::append_program(CellTree& tree) const {
     } else {
       const Literal literal = scene_.faces[token.payload()].literal;
       const bool complement = bool(literal & 1) != token.negated();
-      tree.steps.push_back({position(literal >> 1) * 2 + complement, on_true, on_false});
+      steps_.push_back({position(literal >> 1) * 2 + complement, on_true, on_false});
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/arena.h"
 #include "subdivide/cells.h"
 
 namespace whittle {
@@ -26,8 +27,8 @@ class LeafAnalysis {
   /// A disjunction of uncomplemented primitives or faces only (the paper's case 2).
   bool is_plain_union() const;
 
-  /// Appends the leaf to the tree; returns its kind and number. Precondition: size() > 0.
-  Cell append_to(CellTree& tree);
+  /// Writes the leaf into the arena. Precondition: size() > 0.
+  CellLink write(Arena& arena);
 
  private:
   struct Used {
@@ -38,12 +39,13 @@ class LeafAnalysis {
   void compute_table();
   /// The kind of leaf; for conjunctions and disjunctions `out` gets the literals with their signs.
   CellKind signs(std::vector<Literal>& out) const;
-  void append_program(CellTree& tree) const;
+  void make_program();
 
   const Scene& scene_;
   std::span<const Token> formula_;
   std::vector<Used> half_spaces_;
   std::vector<Literal> signs_;
+  std::vector<Step> steps_;
   bool has_table_ = false;
   uint64_t table_ = 0;
   uint32_t primitive_count_ = 0;

@@ -3,11 +3,13 @@
 // Based on: the paper, section 2 (binary subdivision, each cell's tree simplified from its
 // parent's). What we changed: literals are half-spaces; a leaf holds up to k of them, simplified
 // completely by its truth table where there are at most six; no leaf is dropped unless asked for;
-// sub-trees are built in parallel, and the result does not depend on the number of threads.
+// cells are refined when they are looked at, or all at once on all threads; what they become does
+// not depend on that.
 #pragma once
 
 #include <functional>
 
+#include "base/workers.h"
 #include "subdivide/cells.h"
 
 namespace whittle {
@@ -38,22 +40,30 @@ struct SubdivideSettings {
   std::function<bool(const Box&)> is_small;
   /// Drop the leaves that `is_small` stopped, as the paper did.
   bool ignore_small = false;
-  /// Cells that there may be; then none is split any more, and leaves have longer formulas
-  /// instead. The picture is the same. A leaf of many literals counts as several cells, and
-  /// what is open at the end comes on top. At most kMostCells (docs/decisions/0010-limits.md).
-  size_t max_cells = 20'000'000;
+  /// What the cells may take, bytes. Where it runs out cells are not split any more, and leaves
+  /// have longer formulas instead; the picture is the same. Each cell hands its share on to its
+  /// parts, so that the cells do not depend on the order in which they are refined. If the formula
+  /// as a whole takes more, that is what is taken (docs/decisions/0010-limits.md).
+  size_t memory = size_t(1) << 30;
   int threads = 0;  ///< 0: all
 };
-
-/// Numbers of what is in the cells have 32 bits.
-inline constexpr size_t kMostCells = size_t(1) << 28;
 
 /// How far a cell is grown before anything is classified against it, as a share of the region's
 /// longest edge. Far above the rounding of a ray's entry and exit (1e-15), far below anything seen;
 /// it puts a surface that lies exactly on a split into both cells, so no ray slips between them.
 inline constexpr double kCellMargin = 1e-10;
 
-/// Never fails; time and memory are bounded by max_cells. `scene` must outlive the result's use.
+/// A tree of one open cell, to be refined where somebody looks. `scene` must outlive the tree.
+CellTree open_cells(const Scene& scene, const SubdivideSettings& settings);
+
+/// Refines the cells with long formulas, which all who look at the tree meet first, on all threads.
+void refine_top(const CellTree& tree, const Workers& workers);
+
+/// Refines all that is open, on all threads. Never fails; time and memory are bounded by the
+/// settings' `memory`.
+void refine_all(const CellTree& tree, const Workers& workers);
+
+/// All cells at once.
 CellTree subdivide(const Scene& scene, const SubdivideSettings& settings);
 
 }  // namespace whittle

@@ -2,13 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <random>
 #include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
 #include "lower/evaluate.h"
 #include "lower/lower.h"
 #include "subdivide/leaf.h"
+#include "subdivide/refine.h"
 #include "subdivide/simplify.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"
@@ -52,20 +57,19 @@ bool near_a_surface(const Scene& scene, Vec3 p) {
 }
 
 /// The solid at a point, by the leaf's own representation.
-bool leaf_value(const Scene& scene, const CellTree& tree, const Cell& cell, Vec3 p) {
-  if (cell.kind == CellKind::kEmpty || cell.kind == CellKind::kFull)
-    return cell.kind == CellKind::kFull;
-  const Leaf& leaf = tree.leaves[cell.index];
+bool leaf_value(const Scene& scene, CellLink cell, Vec3 p) {
+  if (cell.kind() == CellKind::kEmpty || cell.kind() == CellKind::kFull)
+    return cell.kind() == CellKind::kFull;
+  const Leaf& leaf = cell.leaf();
   uint64_t state = 0;
   size_t true_literals = 0;
   std::vector<bool> inside;
-  for (uint32_t i = 0; i < leaf.literal_count; ++i) {
-    const Literal literal = tree.literals[leaf.first_literal + i].literal;
-    inside.push_back(contains(scene.half_spaces[literal >> 1], p));
-    if (i < 64) state |= uint64_t(inside[i]) << i;
-    true_literals += contains(scene, literal, p);
+  for (const LeafLiteral& literal : leaf.literals()) {
+    inside.push_back(contains(scene.half_spaces[literal.literal >> 1], p));
+    if (inside.size() <= 64) state |= uint64_t(inside.back()) << (inside.size() - 1);
+    true_literals += contains(scene, literal.literal, p);
   }
-  switch (cell.kind) {
+  switch (cell.kind()) {
     case CellKind::kConjunction:
       return true_literals == leaf.literal_count;
     case CellKind::kDisjunction:
@@ -75,7 +79,7 @@ bool leaf_value(const Scene& scene, const CellTree& tree, const Cell& cell, Vec3
     default: {
       uint32_t at = 0;
       while (at < kAnswerFalse) {
-        const Step& step = tree.steps[leaf.first_step + at];
+        const Step& step = leaf.steps()[at];
         at = inside[step.literal >> 1] != (step.literal & 1) ? step.on_true : step.on_false;
       }
       return at == kAnswerTrue;
@@ -83,27 +87,8 @@ bool leaf_value(const Scene& scene, const CellTree& tree, const Cell& cell, Vec3
   }
 }
 
-/// Calls visit(cell, box) for every leaf.
-template <class Visit>
-void for_leaves(const CellTree& tree, Visit&& visit) {
-  struct Item {
-    uint32_t cell;
-    Box box;
-  };
-  std::vector<Item> stack{{0, tree.region}};
-  while (!stack.empty()) {
-    const Item item = stack.back();
-    stack.pop_back();
-    const Cell& cell = tree.cells[item.cell];
-    if (cell.kind != CellKind::kNode) {
-      visit(cell, item.box);
-      continue;
-    }
-    Item low{cell.index, item.box}, high{cell.index + 1, item.box};
-    low.box.hi[cell.axis] = high.box.lo[cell.axis] = cell.split;
-    stack.push_back(high);
-    stack.push_back(low);
-  }
+uint64_t cell_count(const CellTree& tree) {
+  return statistics_of(tree).cell_count();
 }
 
 TEST(Classify, InsideAndOutsideAreNeverWrong) {
@@ -207,8 +192,8 @@ TEST(Simplify, AGroupLeftWithOneOperandJoinsTheGroupAround) {
   LeafAnalysis leaf(scene);
   leaf.analyse(out);
   EXPECT_EQ(leaf.size(), 2u);
-  CellTree tree;
-  EXPECT_EQ(leaf.append_to(tree).kind, CellKind::kDisjunction);
+  Arena arena;
+  EXPECT_EQ(leaf.write(arena).kind(), CellKind::kDisjunction);
 }
 
 TEST(Simplify, FacetsThatDoNotReachTheCellAreDropped) {
@@ -245,10 +230,10 @@ TEST(Leaf, TablesAreSimplifiedCompletely) {
   LeafAnalysis leaf(same);
   leaf.analyse(same.formula);
   ASSERT_EQ(leaf.size(), 1u);
-  CellTree tree;
-  const Cell cell = leaf.append_to(tree);
-  EXPECT_EQ(cell.kind, CellKind::kConjunction);
-  EXPECT_EQ(tree.literals[0].literal, 0u);
+  Arena arena;
+  const CellLink cell = leaf.write(arena);
+  EXPECT_EQ(cell.kind(), CellKind::kConjunction);
+  EXPECT_EQ(cell.leaf().literals()[0].literal, 0u);
 
   const Scene nothing = lowered("difference(){ sphere(5); sphere(5); }");
   LeafAnalysis constant(nothing);
@@ -261,11 +246,11 @@ TEST(Leaf, SharedFacesHaveNoOwnerOfTheirOwn) {
   const Scene scene = lowered("sphere(5); sphere(5);");
   LeafAnalysis leaf(scene);
   leaf.analyse(scene.formula);
-  CellTree tree;
-  leaf.append_to(tree);
-  ASSERT_EQ(tree.literals.size(), 1u);
-  EXPECT_EQ(tree.literals[0].owner, kSharedOwner);
-  EXPECT_EQ(tree.tokens.size(), 3u);
+  Arena arena;
+  const Leaf& written = leaf.write(arena).leaf();
+  ASSERT_EQ(written.literal_count, 1u);
+  EXPECT_EQ(written.literals()[0].owner, kSharedOwner);
+  EXPECT_EQ(written.token_count, 3u);
 }
 
 struct Rules {
@@ -287,8 +272,8 @@ std::vector<Rules> all_rules() {
   coarse.leaf_size = 2, coarse.smallest_edge = 0.1;
   rules.push_back({"coarse", coarse});
   SubdivideSettings poor;
-  poor.leaf_size = 2, poor.max_cells = 100;
-  rules.push_back({"100 cells", poor});
+  poor.leaf_size = 2, poor.memory = 20'000;
+  rules.push_back({"20 kB", poor});
   return rules;
 }
 
@@ -300,14 +285,15 @@ TEST(Subdivide, EveryLeafIsRightInItsCell) {
     if (scene.region.is_empty()) continue;
     for (const Rules& rules : all_rules()) {
       const CellTree tree = subdivide(scene, rules.settings);
-      for (size_t i = 0; i < kinds.size(); ++i) kinds[i] += tree.stats.cells[i];
+      const SubdivideStats stats = statistics_of(tree);
+      for (size_t i = 0; i < kinds.size(); ++i) kinds[i] += stats.cells[i];
       uint32_t number = 0;
-      for_leaves(tree, [&](const Cell& cell, const Box& box) {
+      for_each_leaf(tree, [&](CellLink cell, const Box& box) {
         if (++number % 7 != 0) return;
         const Vec3 p = points.in(box);
         if (near_a_surface(scene, p)) return;
-        ASSERT_EQ(leaf_value(scene, tree, cell, p), contains(scene, scene.formula, p))
-            << rules.name << " seed " << seed << " kind " << int(cell.kind);
+        ASSERT_EQ(leaf_value(scene, cell, p), contains(scene, scene.formula, p))
+            << rules.name << " seed " << seed << " kind " << int(cell.kind());
       });
     }
   }
@@ -318,28 +304,70 @@ TEST(Subdivide, EveryLeafIsRightInItsCell) {
   EXPECT_EQ(kinds[size_t(CellKind::kIgnored)], 0u);
 }
 
-TEST(Subdivide, KeepsToItsBudgetWhateverTheThreads) {
+bool same_leaf(const Leaf& a, const Leaf& b) {
+  const auto equal = [](const auto& x, const auto& y, auto&& equal_item) {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end(), equal_item);
+  };
+  return a.table == b.table &&
+         equal(a.literals(), b.literals(),
+               [](const LeafLiteral& x, const LeafLiteral& y) {
+                 return x.literal == y.literal && x.owner == y.owner;
+               }) &&
+         equal(a.steps(), b.steps(),
+               [](const Step& x, const Step& y) {
+                 return x.literal == y.literal && x.on_true == y.on_true &&
+                        x.on_false == y.on_false;
+               }) &&
+         std::ranges::equal(a.tokens(), b.tokens());
+}
+
+/// Whether the cells are the same wherever neither tree is open; `compared` counts them.
+bool same_where_known(const CellTree& a, const CellTree& b, size_t* compared = nullptr) {
+  std::vector<std::pair<const Cell*, const Cell*>> stack{{a.root, b.root}};
+  while (!stack.empty()) {
+    const auto [x, y] = stack.back();
+    stack.pop_back();
+    const CellLink lx = x->link(), ly = y->link();
+    if (lx.kind() == CellKind::kOpen || ly.kind() == CellKind::kOpen) continue;
+    if (compared != nullptr) ++*compared;
+    if (lx.kind() != ly.kind()) return false;
+    if (lx.kind() == CellKind::kNode) {
+      if (lx.axis() != ly.axis() || x->split != y->split) return false;
+      for (int side = 0; side < 2; ++side)
+        stack.push_back({lx.children() + side, ly.children() + side});
+    } else if (lx.kind() >= CellKind::kConjunction && !same_leaf(lx.leaf(), ly.leaf())) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool same(const CellTree& a, const CellTree& b) {
+  return cell_count(a) == cell_count(b) && same_where_known(a, b);
+}
+
+TEST(Subdivide, KeepsToItsMemoryWhateverTheThreads) {
   const Scene scene = lowered(random_tree(3, {.primitives = 300}));
-  const CellTree free = subdivide(scene, {});
-  for (const size_t budget : {1u, 2u, 3u, 100u, 2000u}) {
+  const size_t free = statistics_of(subdivide(scene, {})).memory_bytes;
+  uint64_t cells = 0;
+  for (const size_t memory : {0u, 200'000u, 400'000u, 800'000u}) {
     SubdivideSettings settings;
-    settings.max_cells = budget;
+    settings.memory = memory;
     settings.threads = 1;
     const CellTree one = subdivide(scene, settings);
-    EXPECT_LE(one.cells.size(), budget);
-    EXPECT_LT(one.cells.size(), free.cells.size());
-    settings.threads = 7;
-    const CellTree seven = subdivide(scene, settings);
-    ASSERT_EQ(seven.cells.size(), one.cells.size());
-    for (size_t i = 0; i < one.cells.size(); ++i) {
-      ASSERT_EQ(seven.cells[i].kind, one.cells[i].kind);
-      ASSERT_EQ(seven.cells[i].index, one.cells[i].index);
+    const SubdivideStats stats = statistics_of(one);
+    if (memory > 0) {
+      EXPECT_LE(stats.memory_bytes, memory);
     }
-    EXPECT_EQ(seven.literals.size(), one.literals.size());
+    EXPECT_LT(stats.memory_bytes, free);
+    EXPECT_GT(stats.cell_count(), cells) << "more memory, more cells";
+    cells = stats.cell_count();
+    settings.threads = 7;
+    EXPECT_TRUE(same(one, subdivide(scene, settings))) << memory;
   }
 }
 
-TEST(Subdivide, KeepsToItsBudgetWhereNothingGetsSimpler) {
+TEST(Subdivide, KeepsToItsMemoryWhereNothingGetsSimpler) {
   // Cylinders that all cross at one point.
   std::string text;
   for (int i = 0; i < 400; ++i) {
@@ -347,22 +375,67 @@ TEST(Subdivide, KeepsToItsBudgetWhereNothingGetsSimpler) {
             ",0])cylinder(h=10,r=1,center=true);";
   }
   const Scene scene = lowered(text);
-  for (const size_t budget : {10'000u, 30'000u}) {
+  for (const size_t memory : {300'000u, 3'000'000u}) {
     SubdivideSettings settings;
-    settings.max_cells = budget;
-    const CellTree tree = subdivide(scene, settings);
-    // As subdivide.cpp counts; the cells that are open when the budget ends become leaves yet.
-    EXPECT_LE(tree.cells.size() + (tree.literals.size() + tree.tokens.size()) / 4,
-              budget + budget / 2);
+    settings.memory = memory;
+    EXPECT_LE(statistics_of(subdivide(scene, settings)).memory_bytes, memory);
   }
+}
+
+TEST(Subdivide, LazilyFromManyThreadsTheCellsAreThoseOfAllAtOnce) {
+  for (uint64_t seed = 0; seed < 8; ++seed) {
+    const Scene scene = lowered(random_tree(seed, {.primitives = 60}));
+    SubdivideSettings settings;
+    settings.memory = seed % 2 == 0 ? settings.memory : 60'000;
+    const CellTree eager = subdivide(scene, settings);
+    const CellTree lazy = open_cells(scene, settings);
+    // Each thread goes its own way through the same cells, and half of them do not see all.
+    const auto walk = [&](uint64_t thread) {
+      std::mt19937_64 random(thread);
+      RefinerLease refiner(lazy);
+      std::vector<const Cell*> stack{lazy.root};
+      while (!stack.empty()) {
+        const CellLink link = refiner->refined(*stack.back());
+        stack.pop_back();
+        EXPECT_NE(link.kind(), CellKind::kOpen);
+        if (link.kind() != CellKind::kNode) continue;
+        const size_t first = random() % 2;
+        for (const size_t side : {1 - first, first})
+          if (thread % 2 == 0 || random() % 16 != 0) stack.push_back(link.children() + side);
+      }
+    };
+    {
+      std::vector<std::jthread> threads;
+      for (uint64_t i = 0; i < 4; ++i) threads.emplace_back(walk, 4 * seed + i + 1);
+    }
+    EXPECT_TRUE(same(eager, lazy)) << seed;
+    EXPECT_EQ(statistics_of(lazy).cells[size_t(CellKind::kOpen)], 0u);
+  }
+}
+
+TEST(Subdivide, NothingIsRefinedThatNobodyLooksAt) {
+  const Scene scene = lowered(random_tree(3, {.primitives = 300}));
+  const CellTree eager = subdivide(scene, {});
+  const CellTree lazy = open_cells(scene, {});
+  EXPECT_EQ(cell_count(lazy), 1u);
+  RefinerLease refiner(lazy);
+  // One way down.
+  const Cell* cell = lazy.root;
+  size_t splits = 0;
+  for (CellLink link; (link = refiner->refined(*cell)).kind() == CellKind::kNode; ++splits)
+    cell = link.children();
+  EXPECT_EQ(cell_count(lazy), 2 * splits + 1);
+  size_t compared = 0;
+  EXPECT_TRUE(same_where_known(eager, lazy, &compared));
+  EXPECT_GT(compared, splits);
 }
 
 TEST(Subdivide, CopiesOfOneBodyAreOneLeaf) {
   std::string text;
   for (int i = 0; i < 1000; ++i) text += "cube(10);";
+  const Scene scene = lowered(text);
   SubdivideSettings settings;
-  settings.max_cells = 1000;
-  EXPECT_EQ(subdivide(lowered(text), settings).cells.size(), 1u);
+  EXPECT_EQ(cell_count(subdivide(scene, settings)), 1u);
 }
 
 TEST(Subdivide, LeavesHoldAtMostKWhereCellsMayShrink) {
@@ -373,30 +446,10 @@ TEST(Subdivide, LeavesHoldAtMostKWhereCellsMayShrink) {
     SubdivideSettings settings;
     settings.leaf_size = k;
     const CellTree tree = subdivide(scene, settings);
-    for (const Leaf& leaf : tree.leaves) EXPECT_LE(leaf.literal_count, k);
-    EXPECT_FALSE(tree.leaves.empty());
+    const SubdivideStats stats = statistics_of(tree);
+    EXPECT_GT(stats.leaf_count(), 0u);
+    EXPECT_LE(stats.leaves_by_size.size(), k + 1);
   }
-}
-
-bool same(const CellTree& a, const CellTree& b) {
-  const auto equal = [](const auto& x, const auto& y, auto&& equal_item) {
-    return x.size() == y.size() && std::equal(x.begin(), x.end(), y.begin(), equal_item);
-  };
-  return equal(a.cells, b.cells,
-               [](const Cell& x, const Cell& y) {
-                 return x.kind == y.kind && x.index == y.index && x.axis == y.axis &&
-                        x.split == y.split;
-               }) &&
-         equal(a.literals, b.literals,
-               [](const LeafLiteral& x, const LeafLiteral& y) {
-                 return x.literal == y.literal && x.owner == y.owner;
-               }) &&
-         equal(a.leaves, b.leaves,
-               [](const Leaf& x, const Leaf& y) {
-                 return x.table == y.table && x.first_literal == y.first_literal &&
-                        x.first_step == y.first_step && x.first_token == y.first_token;
-               }) &&
-         a.tokens == b.tokens;
 }
 
 TEST(Subdivide, DoesNotDependOnTheNumberOfThreads) {
@@ -412,8 +465,8 @@ TEST(Subdivide, CoincidentFacesLeaveNothingBehind) {
   // A - A is empty everywhere, although no cell is proved empty by bounds.
   const Scene scene = lowered("difference(){cube(10); cube(10);}");
   const CellTree tree = subdivide(scene, {});
-  EXPECT_EQ(tree.leaves.size(), 0u);
-  EXPECT_EQ(tree.stats.cells[size_t(CellKind::kFull)], 0u);
+  EXPECT_EQ(statistics_of(tree).leaf_count(), 0u);
+  EXPECT_EQ(statistics_of(tree).cells[size_t(CellKind::kFull)], 0u);
 }
 
 TEST(Subdivide, PaperRulesTakeUnionsOfAnyNumberAsLeaves) {
@@ -422,10 +475,10 @@ TEST(Subdivide, PaperRulesTakeUnionsOfAnyNumberAsLeaves) {
   const Scene spheres = lowered(
       "sphere(5); translate([1,0,0]) sphere(5); translate([0,1,0]) sphere(5);"
       "translate([0,0,1]) cube(6);");
-  EXPECT_EQ(subdivide(spheres, paper).cells.size(), 1u);
+  EXPECT_EQ(cell_count(subdivide(spheres, paper)), 1u);
   const Scene cut = lowered(
       "difference(){sphere(5); translate([1,0,0]) sphere(5); translate([0,1,0]) sphere(5);}");
-  EXPECT_GT(subdivide(cut, paper).cells.size(), 1u);
+  EXPECT_GT(cell_count(subdivide(cut, paper)), 1u);
 }
 
 TEST(Subdivide, SmallCellsAreIgnoredOnlyIfAskedFor) {
@@ -435,20 +488,29 @@ TEST(Subdivide, SmallCellsAreIgnoredOnlyIfAskedFor) {
   SubdivideSettings settings;
   settings.leaf_size = 2;
   settings.is_small = [](const Box& box) { return max_component(box.size()) < 0.5; };
-  EXPECT_EQ(subdivide(scene, settings).stats.cells[size_t(CellKind::kIgnored)], 0u);
+  const auto ignored = [&] {
+    return statistics_of(subdivide(scene, settings)).cells[size_t(CellKind::kIgnored)];
+  };
+  EXPECT_EQ(ignored(), 0u);
   settings.ignore_small = true;
-  EXPECT_GT(subdivide(scene, settings).stats.cells[size_t(CellKind::kIgnored)], 0u);
+  EXPECT_GT(ignored(), 0u);
 }
 
 TEST(Subdivide, StatisticsCountWhatIsThere) {
   const Scene scene = lowered("difference(){cube(10); sphere(3);}");
   const CellTree tree = subdivide(scene, {});
-  uint64_t cells = 0, leaves = 0;
-  for (const uint64_t n : tree.stats.cells) cells += n;
-  for (const uint64_t n : tree.stats.leaves_by_size) leaves += n;
-  EXPECT_EQ(cells, tree.cells.size());
-  EXPECT_EQ(leaves, tree.leaves.size());
-  EXPECT_GE(tree.stats.memory_bytes, cells * sizeof(Cell));
+  const SubdivideStats stats = statistics_of(tree);
+  uint64_t outer = 0, leaves = 0;
+  size_t bytes = 0;
+  for_each_leaf(tree, [&](CellLink cell, const Box&) {
+    ++outer;
+    if (cell.kind() < CellKind::kConjunction) return;
+    ++leaves;
+    bytes += cell.leaf().bytes();
+  });
+  EXPECT_EQ(stats.cell_count(), 2 * outer - 1);
+  EXPECT_EQ(stats.leaf_count(), leaves);
+  EXPECT_EQ(stats.memory_bytes, bytes + stats.cell_count() * sizeof(Cell));
 }
 
 }  // namespace

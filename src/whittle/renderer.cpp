@@ -102,7 +102,8 @@ void Renderer::prepare(const Camera& camera) {
       return is_below_pixels(camera, box, pixels);
     };
   }
-  s.cells = subdivide(s.scene, settings);
+  s.cells = open_cells(s.scene, settings);
+  s.settings.eager ? refine_all(*s.cells, s.workers) : refine_top(*s.cells, s.workers);
   std::unique_ptr<CpuTracer> cpu = make_cpu_tracer(s.scene, *s.cells, s.settings.threads);
   s.cpu = cpu.get();
   s.tracer = std::move(cpu);

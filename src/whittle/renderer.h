@@ -37,6 +37,7 @@ struct RendererSettings {
   Backend backend = Backend::kAuto;
   int threads = 0;              ///< 0: all
   SubdivideSettings subdivide;  ///< `threads` and `is_small` are set from here and below
+  bool eager = false;           ///< refine all cells at once, and not where rays come
   double pixel_threshold = 0;   ///< cells whose edges are all shorter are small; 0: none is
 };
 
@@ -59,8 +60,8 @@ class Renderer {
   /// where view-all is on. Of a solid that has no end, what bounds() says is framed.
   Camera camera(const ViewOptions& options);
 
-  /// Makes the cells and the tracer. The camera counts only if there is a pixel threshold. The
-  /// oracle has no cells.
+  /// Makes the cells (as far as they are not left to the rays) and the tracer. The camera counts
+  /// only if there is a pixel threshold. The oracle has no cells.
   void prepare(const Camera& camera);
   /// Precondition of all below: prepare() was called.
   Frame trace(const Camera& camera, const Progress& progress = {});

@@ -134,15 +134,12 @@ Rendering Solid::render(const RenderOptions& options) const {
   if (options.threads < 0 || options.threads > kMostThreads) {
     refuse("threads must be 0 to " + std::to_string(kMostThreads));
   }
-  if (options.most_cells < 1 || options.most_cells > kMostCells) {
-    refuse("most_cells must be 1 to " + std::to_string(kMostCells));
-  }
   const ShadeSettings shading = shading_of(options);
   const ViewOptions view = view_of(options);
   RendererSettings settings;
   settings.backend = value_of(choose(backend_choices(), "backend", options.backend));
   settings.threads = options.threads;
-  settings.subdivide.max_cells = options.most_cells;
+  settings.subdivide.memory = options.cell_memory;
   Renderer renderer = value_of(Renderer::make(state_->read.model, settings));
   const Camera camera = renderer.camera(view);
   renderer.prepare(camera);

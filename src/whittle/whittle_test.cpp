@@ -122,17 +122,17 @@ TEST(Rendering, DoesNotDependOnThreadsNorItsFactsOnTheBackend) {
   EXPECT_LE(differing, 2u) << "rays along edges";
 }
 
-TEST(Rendering, DoesNotDependOnTheLimitOfCells) {
+TEST(Rendering, DoesNotDependOnTheMemoryOfCells) {
   const Solid solid = Solid::parse(
       "difference() { cube(10, center = true); sphere(6); translate([5, 0, 0]) sphere(3); }");
   RenderOptions options;
   options.width = options.height = 40;
   const Rendering many = solid.render(options);
-  for (const size_t cells : {1u, 10u, 1000u}) {
-    options.most_cells = cells;
+  for (const size_t bytes : {0u, 10'000u, 100'000u}) {
+    options.cell_memory = bytes;
     const Rendering few = solid.render(options);
-    EXPECT_EQ(few.id, many.id) << cells;
-    EXPECT_EQ(few.rgba, many.rgba) << cells;
+    EXPECT_EQ(few.id, many.id) << bytes;
+    EXPECT_EQ(few.rgba, many.rgba) << bytes;
   }
 }
 

@@ -16,11 +16,12 @@ struct CpuSubject {
   CellTree cells;
   std::unique_ptr<CpuTracer> tracer;
 
-  CpuSubject(const Model& model, const SubdivideSettings& settings) {
+  /// The cells are made where rays come, as in pictures, unless all are wanted at once.
+  CpuSubject(const Model& model, const SubdivideSettings& settings, bool eager = false) {
     Result<Scene> lowered = lower(model);
     WHITTLE_CHECK(lowered);
     scene = *std::move(lowered);
-    cells = subdivide(scene, settings);
+    cells = eager ? subdivide(scene, settings) : open_cells(scene, settings);
     tracer = make_cpu_tracer(scene, cells, settings.threads);
   }
   CpuSubject(const CpuSubject&) = delete;

@@ -95,11 +95,11 @@ TEST_F(Usage, WrongNumbersAreRefused) {
 TEST_F(Usage, LimitsAreNamesAndNumbers) {
   expect_refused({"--limit", "width=3"},
                  "--limit: unknown limit 'width'; there are: bytes, depth, nodes, values, facets, "
-                 "cells, memory; as in --limit depth=1000");
+                 "memory; as in --limit depth=1000");
   expect_refused({"--limit", "depth"}, "--limit: '' is not a number");
   expect_refused({"--limit", "nodes=0"}, "--limit: wants a whole number, 1 to 1000000000, not 0");
-  expect_refused({"--limit", "cells=1e9"},
-                 "--limit: wants a whole number, 1 to 268435456, not 1e9");
+  expect_refused({"--memory", "0"}, "--memory: wants a whole number, 1 to 1125899906842624, not 0");
+  expect_refused({"--memory", "2X"}, "--memory: '2X' is not a number");
   expect_refused({"--limit", "memory=10M"}, "--limit: memory must be at least 64M, not 10M");
   expect_refused({"--limit", "memory=2X"}, "--limit: '2X' is not a number");
 }

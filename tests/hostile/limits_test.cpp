@@ -71,19 +71,19 @@ TEST_F(LimitsOfFiles, LetAHundredThousandLevelsPass) {
   expect_little_memory(done);
 }
 
-TEST_F(LimitsOfFiles, CellsChangeNoPixel) {
+TEST_F(LimitsOfFiles, MemoryOfCellsChangesNoPixel) {
   const std::string model = WHITTLE_EXAMPLES "/cheese100.csg";
-  const auto picture = [&](const std::string& cells, const std::string& threads) {
+  const auto picture = [&](const std::string& memory, const std::string& threads) {
     const Ended done = run({model, "-o", "x.png", "--imgsize", "64,64", "--threads", threads,
-                            "--stats", "--limit", "cells=" + cells});
+                            "--stats", "--memory", memory});
     EXPECT_EQ(done.exit_code, 0) << done.err;
     EXPECT_NE(done.err.find("disagreements            0"), std::string::npos) << done.err;
     return read("x.png");
   };
-  const std::string free = picture("20000000", "2");
-  for (const char* cells : {"1", "30", "400", "3000"}) {
-    EXPECT_EQ(picture(cells, "1"), free) << cells;
-    EXPECT_EQ(picture(cells, "2"), free) << cells;
+  const std::string free = picture("1G", "2");
+  for (const char* memory : {"1", "20K", "50K", "300K"}) {
+    EXPECT_EQ(picture(memory, "1"), free) << memory;
+    EXPECT_EQ(picture(memory, "2"), free) << memory;
   }
 }
 
@@ -101,8 +101,7 @@ TEST_F(LimitsOfFiles, WhatNoSplitPartsEndsInLittleMemory) {
               ",0])cylinder(h=10,r=1,center=true);";
   }
   write("bundle.csg", bundle);
-  const Ended done =
-      run({"bundle.csg", "-o", "x.png", "--imgsize", "16,16", "--limit", "cells=100000"});
+  const Ended done = run({"bundle.csg", "-o", "x.png", "--imgsize", "16,16", "--memory", "10M"});
   EXPECT_EQ(done.exit_code, 0) << done.err;
   expect_little_memory(done);
 }

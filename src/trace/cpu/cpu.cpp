@@ -15,7 +15,6 @@ namespace {
 constexpr int kTile = 8;             ///< pixels; a tile's rays walk together
 constexpr int kBlock = 32;           ///< pixels a task; small enough to balance
 constexpr size_t kProbeChunk = 256;  ///< positions a task
-constexpr uint32_t kMaxDepth = 192;  ///< what the walk through the cells has room for
 static_assert(kTile * kTile == kTileRays);
 
 /// Every other bit of `i`: a number along the Z-order curve is x in the even bits, y in the odd.
@@ -49,9 +48,7 @@ constexpr InOrder kInOrder;
 class CpuTracerImpl final : public CpuTracer {
  public:
   CpuTracerImpl(const Scene& scene, const CellTree& tree, int threads)
-      : scene_(scene), tree_(tree), lanes_(scene, tree), workers_(threads), scratches_(workers_) {
-    WHITTLE_CHECK(tree.stats.depth < kMaxDepth);
-  }
+      : scene_(scene), tree_(tree), lanes_(scene, tree), workers_(threads), scratches_(workers_) {}
 
   const char* name() const override { return "cpu"; }
 

@@ -18,8 +18,6 @@ namespace whittle {
 namespace HWY_NAMESPACE {
 namespace {
 
-constexpr uint32_t kMaxDepth = 192;  ///< three axes, each halved at most 64 times
-
 /// Where a cell's edge is shorter than this many widths of the tile, its packets go on alone.
 constexpr double kAlone = 0.5;
 
@@ -41,7 +39,6 @@ class Walk {
  public:
   Walk(const LaneScene& scene, Tile& tile, LaneScratch& scratch)
       : scene_(scene),
-        cells_(scene.tree.cells.data()),
         tile_(tile),
         scratch_(scratch),
         leaves_(scene, tile, scratch),
@@ -138,30 +135,32 @@ class Walk {
     struct Later {
       Planes planes;
       double t0, t1;
-      uint32_t cell;
+      const Cell* cell;
     };
-    Later later[kMaxDepth];
+    Later later[kMostDepth];
     uint32_t waiting = 0;
     const Bounds b = bounds(region);
-    Later now{region, b.t0, b.t1, 0};
+    Later now{region, b.t0, b.t1, scene_.tree.root};
     while (true) {
-      const Cell& cell = cells_[now.cell];
+      const CellLink cell = link(*now.cell);
       scratch_.stats.cells += running_count_;
-      if (cell.kind == CellKind::kNode) {
-        const int axis = cell.axis;
-        const uint32_t near_cell = cell.index + side_[axis],
-                       far_cell = cell.index + 1 - side_[axis];
-        const double low = cell.split * sign_[axis] - b.high_origin[axis];
-        const double high = cell.split * sign_[axis] - b.low_origin[axis];
+      if (cell.kind() == CellKind::kNode) {
+        const int axis = cell.axis();
+        const double split = now.cell->split;
+        const Cell *const near_cell = cell.children() + side_[axis], *const far_cell =
+                                                                         cell.children() + 1 -
+                                                                         side_[axis];
+        const double low = split * sign_[axis] - b.high_origin[axis];
+        const double high = split * sign_[axis] - b.low_origin[axis];
         const double first = low * (low < 0 ? b.high_inverse : b.low_inverse)[axis];
         const double last = high * (high < 0 ? b.low_inverse : b.high_inverse)[axis];
         if (!(first < now.t1)) {
-          now.planes.leave[axis] = cell.split;
+          now.planes.leave[axis] = split;
           now.cell = near_cell;
           continue;
         }
         if (!(last > now.t0)) {
-          now.planes.enter[axis] = cell.split;
+          now.planes.enter[axis] = split;
           now.cell = far_cell;
           continue;
         }
@@ -169,9 +168,9 @@ class Walk {
           Later& far = later[waiting++];
           far = now;
           far.cell = far_cell;
-          far.planes.enter[axis] = cell.split;
+          far.planes.enter[axis] = split;
           far.t0 = std::max(far.t0, first);
-          now.planes.leave[axis] = cell.split;
+          now.planes.leave[axis] = split;
           now.t1 = std::min(now.t1, last);
           now.cell = near_cell;
           continue;
@@ -186,10 +185,16 @@ class Walk {
     }
   }
 
-  void leaf(const Cell& cell, const Planes& planes) {
+  /// What a cell is, which nobody may have asked before.
+  HWY_INLINE CellLink link(const Cell& cell) {
+    const CellLink link = cell.link();
+    return HWY_LIKELY(link.kind() != CellKind::kOpen) ? link : scratch_.refiner->refined(cell);
+  }
+
+  void leaf(CellLink cell, const Planes& planes) {
     Visitors& visitors = leaves_.visitors;
     visitors.count = 0;
-    const uint32_t nothing_new = cell.kind == CellKind::kEmpty ? ~0u : 0;
+    const uint32_t nothing_new = cell.kind() == CellKind::kEmpty ? ~0u : 0;
     for (uint64_t left = running_packets_; left != 0; left &= left - 1) {
       const auto p = size_t(std::countr_zero(left));
       // Who knows that it is in empty space learns nothing in an empty cell.
@@ -213,27 +218,29 @@ class Walk {
 
   /// One packet, from a cell on. A lane takes part in a cell if its interval is not empty there, so
   /// that intervals alone say which lanes are where.
-  void alone(size_t packet, uint32_t at, const Planes& planes) {
+  void alone(size_t packet, const Cell* at, const Planes& planes) {
     struct Later {
       double t0[kMaxLanes], t1[kMaxLanes];
-      uint32_t cell;
+      const Cell* cell;
     };
-    Later later[kMaxDepth];
+    Later later[kMostDepth];
     uint32_t waiting = 0;
     const Real never = set(kInfinity);
     Real t0, t1;
     way_through(planes, packet, t0, t1);
     t0 = L::select(mask_of(running_[packet]), t0, never);
     while (true) {
-      const Cell& cell = cells_[at];
+      const CellLink cell = link(*at);
       const Bool active = t0 < t1;
       scratch_.stats.cells += hn::CountTrue(D(), active);
-      if (cell.kind == CellKind::kNode) {
-        const Real t = tile_.passes(packet, cell.axis, cell.split);
+      if (cell.kind() == CellKind::kNode) {
+        const Real t = tile_.passes(packet, cell.axis(), at->split);
         const Bool wants_far = hn::And(active, t < t1);
         const Bool wants_near = hn::And(active, hn::Gt(t, t0));
-        const uint32_t near_cell = cell.index + side_[cell.axis],
-                       far_cell = cell.index + 1 - side_[cell.axis];
+        const Cell *const near_cell = cell.children() + side_[cell.axis()], *const far_cell =
+                                                                                cell.children() +
+                                                                                1 -
+                                                                                side_[cell.axis()];
         if (hn::AllFalse(D(), wants_far)) {
           at = near_cell;
         } else if (hn::AllFalse(D(), wants_near)) {
@@ -266,7 +273,6 @@ class Walk {
   }
 
   const LaneScene& scene_;
-  const Cell* cells_;
   Tile& tile_;
   LaneScratch& scratch_;
   LeavesInLanes leaves_;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "subdivide/refine.h"
 #include "trace/cpu/cpu.h"
 #include "trace/cpu/solve.h"
 
@@ -39,8 +40,9 @@ inline constexpr size_t kTileRays = 64;  ///< rays that walk together
 
 /// What one thread needs besides the scene and the cells.
 struct LaneScratch {
-  explicit LaneScratch(const LaneScene& scene) : solver(scene.scene, scene.tree) {}
+  explicit LaneScratch(const LaneScene& scene) : refiner(scene.tree), solver(scene.scene) {}
 
+  RefinerLease refiner;
   LeafSolver solver;
   // Per literal of the leaf at hand.
   std::vector<LaneSigns> signs;      ///< one for each packet

@@ -50,7 +50,7 @@ class LeavesInLanes {
   Visitors visitors;
 
   /// Takes the visitors through a cell that is no node. Some may meet something (Tile::hit).
-  void pass(const Cell& cell);
+  void pass(CellLink cell);
 
  private:
   /// A half-space at one end of the way through a cell.
@@ -105,8 +105,8 @@ class LeavesInLanes {
   uint32_t first_root_[kMostPackets + 1];
 };
 
-inline void LeavesInLanes::pass(const Cell& cell) {
-  switch (cell.kind) {
+inline void LeavesInLanes::pass(CellLink cell) {
+  switch (cell.kind()) {
     case CellKind::kIgnored:
       for (size_t i = 0; i < visitors.count; ++i)
         tile_.known[visitors.packet[i]] &= uint8_t(~visitors.lanes[i]);
@@ -115,7 +115,7 @@ inline void LeavesInLanes::pass(const Cell& cell) {
     case CellKind::kFull:
       for (size_t i = 0; i < visitors.count; ++i) {
         const uint32_t packet = visitors.packet[i], lanes = visitors.lanes[i];
-        const uint32_t here = cell.kind == CellKind::kFull ? lanes : 0;
+        const uint32_t here = cell.kind() == CellKind::kFull ? lanes : 0;
         // A surface on a cell's side is a literal on both sides of it, so this cannot be a change.
         scratch_.stats.disagreements +=
             uint32_t(std::popcount((tile_.solid[packet] ^ here) & tile_.known[packet] & lanes));
@@ -123,9 +123,9 @@ inline void LeavesInLanes::pass(const Cell& cell) {
       }
       return;
     default: {
-      const Leaf& leaf = scene_.tree.leaves[cell.index];
+      const Leaf& leaf = cell.leaf();
       make_room(leaf.literal_count);
-      solve(cell.kind, leaf);
+      solve(cell.kind(), leaf);
     }
   }
 }
@@ -212,8 +212,7 @@ HWY_INLINE LeavesInLanes::End LeavesInLanes::end_at_eye(Real at_eye, L::AlongRay
 }
 
 inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
-  const std::span<const LeafLiteral> literals(&scene_.tree.literals[leaf.first_literal],
-                                              leaf.literal_count);
+  const std::span<const LeafLiteral> literals = leaf.literals();
   const bool conjunction = kind == CellKind::kConjunction,
              disjunction = kind == CellKind::kDisjunction;
   // One literal that is false all along settles a conjunction, one that is true a disjunction;
@@ -378,8 +377,7 @@ inline uint32_t LeavesInLanes::solve_in_lanes(const Leaf& leaf,
 inline void LeavesInLanes::solve_lane(CellKind kind, const Leaf& leaf, size_t visitor,
                                       uint32_t lane) {
   const size_t packet = visitors.packet[visitor];
-  const std::span<const LeafLiteral> literals(&scene_.tree.literals[leaf.first_literal],
-                                              leaf.literal_count);
+  const std::span<const LeafLiteral> literals = leaf.literals();
   scratch_.on_ray.resize(leaf.literal_count);
   for (uint32_t i = 0; i < leaf.literal_count; ++i) {
     const L::AlongRay all = along(literals[i].literal >> 1, packet);

@@ -14,9 +14,8 @@ using K = Kernels<double>;
 
 }  // namespace
 
-LeafSolver::LeafSolver(const Scene& scene, const CellTree& tree)
+LeafSolver::LeafSolver(const Scene& scene)
     : scene_(scene),
-      tree_(tree),
       together_(together({scene.region.lo + scene.origin, scene.region.hi + scene.origin})) {}
 
 void LeafSolver::add_crossing(double t, uint32_t literal) {
@@ -73,7 +72,7 @@ bool LeafSolver::value(CellKind kind, const Leaf& leaf,
     case CellKind::kTable:
       return leaf.table >> state_ & 1;
     default: {
-      const Step* steps = &tree_.steps[leaf.first_step];
+      const Step* steps = leaf.steps().data();
       uint32_t at = 0;
       while (at < kAnswerFalse) {
         const Step& step = steps[at];
@@ -108,7 +107,7 @@ size_t LeafSolver::decisive(CellKind kind, const Leaf& leaf, std::span<const Lea
 bool LeafSolver::first_change(CellKind kind, const Leaf& leaf, std::span<const LiteralOnRay> on_ray,
                               const LocalRay& ray, double t0, double t1, Inside& inside,
                               Change& change) {
-  const std::span<const LeafLiteral> literals = literals_of(leaf);
+  const std::span<const LeafLiteral> literals = leaf.literals();
   list_crossings(on_ray, t0, t1);
   start(kind, leaf, literals);
   bool solid = value(kind, leaf, literals);
@@ -161,7 +160,7 @@ Change LeafSolver::describe(const Leaf& leaf, std::span<const LeafLiteral> liter
 
 const Face& LeafSolver::owner(const Leaf& leaf, std::span<const LeafLiteral> literals, Vec3 point,
                               std::span<const Crossing> group) const {
-  const std::span<const Token> formula(&tree_.tokens[leaf.first_token], leaf.token_count);
+  const std::span<const Token> formula = leaf.tokens();
   // Bit 0: before the change, bit 1: after it.
   const auto value = [&](Token token) -> uint8_t {
     const Literal face = scene_.faces[token.payload()].literal;

@@ -55,7 +55,7 @@ inline bool literal_value(const LeafLiteral& literal, bool is_inside) {
 
 class LeafSolver {
  public:
-  LeafSolver(const Scene& scene, const CellTree& tree);
+  explicit LeafSolver(const Scene& scene);
 
   /// Finds the first t in (t0, t1] at which the solid in this leaf changes from what `inside` says,
   /// or t0 if it differs there already. Otherwise false, and `inside` tells the value at t1.
@@ -72,9 +72,6 @@ class LeafSolver {
     double t;
     uint32_t literal;
   };
-  std::span<const LeafLiteral> literals_of(const Leaf& leaf) const {
-    return {&tree_.literals[leaf.first_literal], leaf.literal_count};
-  }
   void list_crossings(std::span<const LiteralOnRay> on_ray, double t0, double t1);
   void add_crossing(double t, uint32_t literal);
   void start(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals);
@@ -93,7 +90,6 @@ class LeafSolver {
                     std::span<const Crossing> group) const;
 
   const Scene& scene_;
-  const CellTree& tree_;
   const double together_;            ///< crossings closer than this happen together
   std::vector<uint8_t> is_inside_;   ///< by literal: inside the half-space itself, at this point
   std::vector<Crossing> crossings_;  ///< in (t0, t1], sorted

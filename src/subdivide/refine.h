@@ -1,0 +1,116 @@
+// Refining: what turns an open cell into a leaf or into two cells, by one thread at a time and only
+// when somebody wants to know.
+//
+// What a cell becomes follows from the cell alone: its box, its formula and its share of the
+// memory. So the cells do not depend on who refines them, in which order, or on which of them are
+// refined.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "base/arena.h"
+#include "subdivide/leaf.h"
+#include "subdivide/simplify.h"
+#include "subdivide/subdivide.h"
+
+namespace whittle {
+
+/// A cell that is not known yet. Its formula is simplified for its box; the tokens stand behind.
+struct OpenCell {
+  Box box;
+  size_t memory;  ///< its share: what it and all below it may take
+  uint32_t depth;
+  uint32_t stalled;   ///< splits since the formula last became shorter
+  uint32_t literals;  ///< of the formula, expanded
+  uint32_t token_count;
+
+  std::span<const Token> tokens() const {
+    return {reinterpret_cast<const Token*>(this + 1), token_count};
+  }
+  static size_t bytes(size_t tokens) { return sizeof(OpenCell) + tokens * sizeof(Token); }
+};
+
+/// Refines cells of one tree; used by one thread at a time.
+class Refiner {
+ public:
+  Refiner(const Scene& scene, const SubdivideSettings& settings);
+
+  /// What the cell is; never kOpen. If another thread is at it, waits for that. What it throws (out
+  /// of memory) leaves the cell open.
+  CellLink refined(const Cell& cell);
+  /// Refines the cell and all below.
+  void refine_all(const Cell& cell);
+
+ private:
+  friend class RefinerPool;
+
+  CellLink refine(const Cell& cell, const OpenCell& open);
+  bool ends(const OpenCell& open, CellLink& link);
+  CellLink split(const Cell& cell, const OpenCell& open);
+  CellLink leaf();
+  bool has_few_half_spaces(std::span<const Token> formula) const;
+  bool simple_enough() const;
+  struct Place {
+    int axis;
+    double at;
+  };
+  Place choose_split(const OpenCell& open) const;
+  /// A cell of its own, open or decided already.
+  CellLink open(const OpenCell& what, std::span<const Token> formula);
+  CellLink decided(bool full);
+
+  const Scene& scene_;
+  const SubdivideSettings& settings_;
+  double region_edge_;
+  Arena cells_, leaves_;
+  BlockPool open_cells_;
+  Simplifier simplifier_;
+  LeafAnalysis analysis_;
+  Formula child_formula_[2], expanded_;
+  std::vector<const Cell*> pending_;
+  /// Counters wrap: a cell that one refiner opened may be refined by another.
+  SubdivideStats stats_;
+};
+
+/// All refiners of a tree, and so all its cells.
+class RefinerPool {
+ public:
+  RefinerPool(const Scene& scene, const SubdivideSettings& settings);
+
+  /// One that nobody uses.
+  Refiner& take();
+  void give(Refiner& refiner);
+
+  /// The region's cell.
+  const Cell& root() const { return root_; }
+  SubdivideStats stats() const;
+
+ private:
+  void open_root();
+
+  const Scene& scene_;
+  const SubdivideSettings settings_;
+  Cell root_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Refiner>> all_;
+  std::vector<Refiner*> unused_;
+};
+
+/// The right to refine cells of a tree, for one thread at a time; the tree must outlive it.
+class RefinerLease {
+ public:
+  explicit RefinerLease(const CellTree& tree) : pool_(*tree.refiner_pool), refiner_(pool_.take()) {}
+  ~RefinerLease() { pool_.give(refiner_); }
+  RefinerLease(const RefinerLease&) = delete;
+  RefinerLease& operator=(const RefinerLease&) = delete;
+
+  Refiner* operator->() const { return &refiner_; }
+
+ private:
+  RefinerPool& pool_;
+  Refiner& refiner_;
+};
+
+}  // namespace whittle
