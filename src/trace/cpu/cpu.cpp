@@ -12,25 +12,27 @@
 namespace whittle {
 namespace {
 
-constexpr int kTile = 8;             ///< pixels; a tile's rays walk together
-constexpr int kBlock = 32;           ///< pixels a task; small enough to balance
-constexpr size_t kProbeChunk = 256;  ///< positions a task
-static_assert(kTile * kTile == kTileRays);
+constexpr int kTileWidth = 8, kTileHeight = 8;  ///< pixels; a tile's rays walk together
+constexpr int kBlock = 32;                      ///< pixels a task; small enough to balance
+constexpr size_t kProbeChunk = 256;             ///< positions a task
+static_assert(kTileWidth * kTileHeight == kTileRays);
 
 /// Every other bit of `i`: a number along the Z-order curve is x in the even bits, y in the odd.
-constexpr int even_bits(int i) {
-  int result = 0;
-  for (int bit = 0; bit < 8; ++bit) result |= (i >> (2 * bit) & 1) << bit;
+constexpr uint32_t even_bits(size_t i) {
+  uint32_t result = 0;
+  for (int bit = 0; bit < 8; ++bit) result |= uint32_t(i >> (2 * bit) & 1) << bit;
   return result;
 }
 
 /// The pixels of a tile in Z order, so that 2, 4 or 8 in a row are a compact patch.
 struct TileOrder {
-  std::array<uint8_t, kTileRays> x, y;
-  constexpr TileOrder() : x(), y() {
-    for (int i = 0; i < int(kTileRays); ++i) {
-      x[size_t(i)] = uint8_t(even_bits(i));
-      y[size_t(i)] = uint8_t(even_bits(i >> 1));
+  std::array<uint32_t, kTileRays> x, y;
+  std::array<PixelPosition, kTileRays> middle;
+  constexpr TileOrder() : x(), y(), middle() {
+    for (size_t i = 0; i < kTileRays; ++i) {
+      x[i] = even_bits(i);
+      y[i] = even_bits(i >> 1);
+      middle[i] = {float(x[i]) + 0.5f, float(y[i]) + 0.5f};
     }
   }
 };
@@ -104,9 +106,9 @@ class CpuTracerImpl final : public CpuTracer {
   void trace_block(const Camera& camera, int x0, int y0, const PixelRect& seen, Frame& frame,
                    LaneScratch& scratch) {
     const int x1 = std::min(x0 + kBlock, camera.width), y1 = std::min(y0 + kBlock, camera.height);
-    for (int y = y0; y < y1; y += kTile)
-      for (int x = x0; x < x1; x += kTile) {
-        const PixelRect tile{x, y, std::min(x + kTile, x1), std::min(y + kTile, y1)};
+    for (int y = y0; y < y1; y += kTileHeight)
+      for (int x = x0; x < x1; x += kTileWidth) {
+        const PixelRect tile{x, y, std::min(x + kTileWidth, x1), std::min(y + kTileHeight, y1)};
         if (tile.x0 < seen.x1 && tile.x1 > seen.x0 && tile.y0 < seen.y1 && tile.y1 > seen.y0)
           trace_tile(camera, tile, frame, scratch);
         else
@@ -117,12 +119,18 @@ class CpuTracerImpl final : public CpuTracer {
   void trace_tile(const Camera& camera, const PixelRect& tile, Frame& frame, LaneScratch& scratch) {
     std::array<PixelPosition, kTileRays> positions;
     std::array<uint32_t, kTileRays> places;
-    size_t n = 0;
     for (size_t i = 0; i < kTileRays; ++i) {
-      const int x = kTileOrder.x[i], y = kTileOrder.y[i];
-      positions[n] = {float(tile.x0 + x) + 0.5f, float(tile.y0 + y) + 0.5f};
-      places[n] = uint32_t(y * frame.width + x);
-      n += size_t(x < tile.width() && y < tile.height());
+      positions[i] = {kTileOrder.middle[i].x + float(tile.x0),
+                      kTileOrder.middle[i].y + float(tile.y0)};
+      places[i] = uint32_t(kTileOrder.y[i]) * uint32_t(frame.width) + kTileOrder.x[i];
+    }
+    size_t n = kTileRays;
+    if (tile.width() < kTileWidth || tile.height() < kTileHeight) {
+      n = 0;
+      for (size_t i = 0; i < kTileRays; ++i) {
+        positions[n] = positions[i], places[n] = places[i];
+        n += size_t(int(kTileOrder.x[i]) < tile.width() && int(kTileOrder.y[i]) < tile.height());
+      }
     }
     trace_lanes(lanes_, camera, std::span(positions).first(n), places.data(),
                 &frame.at(tile.x0, tile.y0), scratch);

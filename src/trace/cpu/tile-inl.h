@@ -8,6 +8,7 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstring>
@@ -92,12 +93,13 @@ class Tile {
     const size_t i = packet * lanes();
     return {hn::Load(D(), v[0] + i), hn::Load(D(), v[1] + i), hn::Load(D(), v[2] + i)};
   }
-  HWY_INLINE Real make_packet(const LaneScene& scene, const Camera& camera, size_t packet);
+  static void in_picture(const Camera& camera, const PixelPosition* positions, Real& x, Real& y);
+  HWY_INLINE Real make_packet(const LaneScene& scene, const Camera& camera, size_t packet, Real x,
+                              Real y);
   HWY_INLINE void write_packet(const LaneScene& scene, size_t packet, const uint32_t* places,
                                Hit* hits) const;
 
   double at_eye_ = 0;  ///< this far from its start a ray is where the eye is
-  alignas(64) Numbers x_, y_;
   alignas(64) Numbers origin_[3];
   alignas(64) Numbers direction_[3];
   alignas(64) Numbers inverse_[3];  ///< of the direction
@@ -115,22 +117,23 @@ inline void Tile::make_rays(const LaneScene& scene, const Camera& camera,
                             std::span<const PixelPosition> positions) {
   rays = positions.size();
   packets = (rays + lanes() - 1) / lanes();
-  const double scale = camera.units_per_pixel();
-  const double half_width = 0.5 * camera.width, half_height = 0.5 * camera.height;
-  for (size_t i = 0; i < rays; ++i) {
-    x_[i] = (double(positions[i].x) - half_width) * scale;
-    y_[i] = (half_height - double(positions[i].y)) * scale;
-  }
-  for (size_t i = rays; i < packets * lanes(); ++i) x_[i] = x_[rays - 1], y_[i] = y_[rays - 1];
   at_eye_ = kAtEye * scene.edge;
   Real farthest = set(0);
   Real low_x = set(kInfinity), high_x = set(-kInfinity), low_y = low_x, high_y = high_x;
   from_within = false;
   for (size_t packet = 0; packet < packets; ++packet) {
-    const Real x = hn::Load(D(), x_ + packet * lanes()), y = hn::Load(D(), y_ + packet * lanes());
+    const size_t first = packet * lanes(), count = std::min(lanes(), rays - first);
+    std::array<PixelPosition, kMaxLanes> some;
+    const PixelPosition* of_packet = &positions[first];
+    if (count < lanes()) {
+      std::fill(std::copy_n(of_packet, count, some.begin()), some.end(), of_packet[0]);
+      of_packet = some.data();
+    }
+    Real x, y;
+    in_picture(camera, of_packet, x, y);
     low_x = hn::Min(low_x, x), high_x = hn::Max(high_x, x);
     low_y = hn::Min(low_y, y), high_y = hn::Max(high_y, y);
-    farthest = hn::Max(farthest, hn::Abs(make_packet(scene, camera, packet)));
+    farthest = hn::Max(farthest, hn::Abs(make_packet(scene, camera, packet, x, y)));
   }
   const auto most = [](Real v) { return hn::GetLane(hn::MaxOfLanes(D(), v)); };
   const double extent[2] = {most(high_x) + most(set(0) - low_x),
@@ -141,13 +144,25 @@ inline void Tile::make_rays(const LaneScene& scene, const Camera& camera,
   if (beside != 0) meets[packets - 1] &= uint8_t((1u << (lanes() - beside)) - 1);
 }
 
+/// Where as many positions as there are lanes lie in the picture, from its middle.
+HWY_INLINE void Tile::in_picture(const Camera& camera, const PixelPosition* positions, Real& x,
+                                 Real& y) {
+  static_assert(sizeof(PixelPosition) == 2 * sizeof(float));
+  const hn::Rebind<float, D> floats;
+  auto px = hn::Zero(floats), py = px;
+  hn::LoadInterleaved2(floats, &positions[0].x, px, py);
+  const Real scale = set(camera.units_per_pixel());
+  x = (hn::PromoteTo(D(), px) - set(0.5 * camera.width)) * scale;
+  y = (set(0.5 * camera.height) - hn::PromoteTo(D(), py)) * scale;
+}
+
 /// Returns the shifts.
-HWY_INLINE Real Tile::make_packet(const LaneScene& scene, const Camera& camera, size_t packet) {
+HWY_INLINE Real Tile::make_packet(const LaneScene& scene, const Camera& camera, size_t packet,
+                                  Real x, Real y) {
   const size_t i = packet * lanes();
   const bool ortho = camera.orthographic;
   const L::Vec3 base = set(ortho ? camera.eye : camera.forward);
-  const L::Vec3 point = L::picture_point(base, set(camera.right), set(camera.up),
-                                         hn::Load(D(), x_ + i), hn::Load(D(), y_ + i));
+  const L::Vec3 point = L::picture_point(base, set(camera.right), set(camera.up), x, y);
   const L::Vec3 d = ortho ? set(camera.forward) : L::unit3(point);
   L::Vec3 o = ortho ? point : set(camera.eye);
   const L::Vec3 middle = set(scene.scene.origin);
