@@ -72,6 +72,8 @@ class LeavesInLanes {
                uint32_t settling);
   void find_roots(std::span<const LeafLiteral> literals);
   uint32_t solve_in_lanes(const Leaf& leaf, std::span<const LeafLiteral> literals, size_t visitor);
+  uint32_t find_owners(const Leaf& leaf, size_t packet, uint32_t lanes, Word state,
+                       uint32_t literal);
   void solve_lane(CellKind kind, const Leaf& leaf, size_t visitor, uint32_t lane);
   void becomes(size_t packet, uint32_t lanes, uint32_t solid) {
     tile_.known[packet] |= uint8_t(lanes);
@@ -356,13 +358,11 @@ inline uint32_t LeavesInLanes::solve_in_lanes(const Leaf& leaf,
         const Bool by = hn::RebindMask(D(), hn::Eq(flip, hn::Set(Words(), uint64_t(1) << i)));
         const uint32_t lanes = met & bits(by);
         if (lanes == 0) continue;
+        const Word by_owner =
+            hn::Set(Words(), what_is_met(literals[i].owner, literals[i].literal >> 1, false));
+        tile_.met(packet, lanes, first, hn::Or(by_owner, turned));
         if (literals[i].owner == kSharedOwner)
-          delicate |= lanes;
-        else
-          tile_.met(packet, lanes, first,
-                    hn::Or(hn::Set(Words(),
-                                   what_is_met(literals[i].owner, literals[i].literal >> 1, false)),
-                           turned));
+          delicate |= lanes & ~find_owners(leaf, packet, lanes, state, uint32_t(i));
       }
       open &= ~met;
     }
@@ -372,6 +372,24 @@ inline uint32_t LeavesInLanes::solve_in_lanes(const Leaf& leaf,
       hn::Store(L::select(t == first, never, t), D(), at + i * Tile::lanes());
     }
   }
+}
+
+/// Completes what some lanes have met, after the crossing of a literal of several owners. Returns
+/// the lanes whose owner is known; the others have met nothing yet.
+inline uint32_t LeavesInLanes::find_owners(const Leaf& leaf, size_t packet, uint32_t lanes,
+                                           Word state, uint32_t literal) {
+  alignas(64) uint64_t states[kMaxLanes];
+  hn::Store(state, Words(), states);
+  uint32_t found = 0;
+  for (uint32_t left = lanes; left != 0; left &= left - 1) {
+    const auto lane = uint32_t(std::countr_zero(left));
+    const uint32_t id = scratch_.solver.owner_of(leaf, states[lane], literal);
+    if (id == kSharedOwner) continue;
+    tile_.add_owner(packet, lane, id);
+    found |= 1u << lane;
+  }
+  tile_.hit[packet] &= uint8_t(~(lanes & ~found));
+  return found;
 }
 
 inline void LeavesInLanes::solve_lane(CellKind kind, const Leaf& leaf, size_t visitor,

@@ -1,6 +1,7 @@
 // Solves one leaf along one ray, once it is known how each literal behaves there.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -64,6 +65,11 @@ class LeafSolver {
   bool first_change(CellKind kind, const Leaf& leaf, std::span<const LiteralOnRay> on_ray,
                     const LocalRay& ray, double t0, double t1, Inside& inside, Change& change);
 
+  /// The owner (id) of a change by the crossing of one literal alone, in a leaf with a truth table;
+  /// kSharedOwner if it depends on more than `state`, bit i of which says "inside literal i" after
+  /// the crossing.
+  uint32_t owner_of(const Leaf& leaf, uint64_t state, uint32_t literal);
+
   /// Times that a leaf differed at t0 from what its neighbour had said.
   uint64_t disagreements = 0;
 
@@ -89,7 +95,16 @@ class LeafSolver {
   const Face& owner(const Leaf& leaf, std::span<const LeafLiteral> literals, Vec3 point,
                     std::span<const Crossing> group) const;
 
+  /// What owner_of() has found out; leaves are asked the same again and again.
+  struct KnownOwner {
+    const Leaf* leaf = nullptr;
+    uint64_t state = 0;
+    uint32_t literal = 0, id = 0;
+  };
+  static constexpr size_t kKnownOwners = 256;
+
   const Scene& scene_;
+  std::array<KnownOwner, kKnownOwners> known_owners_;
   const double together_;            ///< crossings closer than this happen together
   std::vector<uint8_t> is_inside_;   ///< by literal: inside the half-space itself, at this point
   std::vector<Crossing> crossings_;  ///< in (t0, t1], sorted

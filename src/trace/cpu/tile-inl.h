@@ -71,6 +71,9 @@ class Tile {
     what_[packet * lanes() + lane] = what;
     hit[packet] |= uint8_t(1u << lane);
   }
+  void add_owner(size_t packet, uint32_t lane, uint32_t id) {
+    what_[packet * lanes() + lane] |= uint64_t(id) << 32;
+  }
   LocalRay ray(size_t packet, uint32_t lane) const {
     const size_t i = packet * lanes() + lane;
     return {{origin_[0][i], origin_[1][i], origin_[2][i]},
