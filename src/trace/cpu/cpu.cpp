@@ -55,24 +55,26 @@ class CpuTracerImpl final : public CpuTracer {
   const char* name() const override { return "cpu"; }
 
   Frame render(const Camera& camera, const Progress& progress) override {
-    Frame frame = Frame::unfilled(camera.width, camera.height);
-    const PixelRect seen =
-        tree_.region.is_empty() ? PixelRect{} : pixels_covering(camera, world_region());
-    const int columns = (camera.width + kBlock - 1) / kBlock,
-              rows = (camera.height + kBlock - 1) / kBlock;
-    std::atomic<int> done = 0;
-    workers_.for_parts(size_t(columns) * size_t(rows), 1,
-                       [&](size_t first, size_t last, size_t worker) {
-                         LaneScratch& scratch = scratches_.of(worker, lanes_);
-                         for (int block = int(first); block < int(last); ++block) {
-                           trace_block(camera, block % columns * kBlock, block / columns * kBlock,
-                                       seen, frame, scratch);
-                           const int now = ++done;
-                           if (progress && now % columns == 0)
-                             progress(double(now) / (columns * rows));
-                         }
-                       });
-    return frame;
+    return frame_of(camera, progress, [&](const TileRays& rays, size_t, LaneScratch& scratch) {
+      trace_lanes(lanes_, camera, rays.positions(), rays.places.data(), rays.hits, scratch);
+    });
+  }
+
+  Frame record(const Camera& camera) override {
+    records_.clear();
+    records_.resize(size_t(parts(camera.width, kTileWidth)) *
+                    size_t(parts(camera.height, kTileHeight)));
+    return frame_of(camera, {}, [&](const TileRays& rays, size_t tile, LaneScratch& scratch) {
+      trace_lanes(lanes_, camera, rays.positions(), rays.places.data(), rays.hits, scratch,
+                  &records_[tile]);
+    });
+  }
+
+  Frame replay(const Camera& camera) override {
+    return frame_of(camera, {}, [&](const TileRays& rays, size_t tile, LaneScratch& scratch) {
+      retrace_lanes(lanes_, camera, rays.positions(), rays.places.data(), rays.hits, scratch,
+                    records_[tile]);
+    });
   }
 
   void probe(const Camera& camera, std::span<const PixelPosition> positions,
@@ -103,37 +105,64 @@ class CpuTracerImpl final : public CpuTracer {
   }
 
  private:
-  void trace_block(const Camera& camera, int x0, int y0, const PixelRect& seen, Frame& frame,
-                   LaneScratch& scratch) {
-    const int x1 = std::min(x0 + kBlock, camera.width), y1 = std::min(y0 + kBlock, camera.height);
-    for (int y = y0; y < y1; y += kTileHeight)
-      for (int x = x0; x < x1; x += kTileWidth) {
-        const PixelRect tile{x, y, std::min(x + kTileWidth, x1), std::min(y + kTileHeight, y1)};
-        if (tile.x0 < seen.x1 && tile.x1 > seen.x0 && tile.y0 < seen.y1 && tile.y1 > seen.y0)
-          trace_tile(camera, tile, frame, scratch);
-        else
-          leave_empty(tile, frame, scratch);
-      }
-  }
-
-  void trace_tile(const Camera& camera, const PixelRect& tile, Frame& frame, LaneScratch& scratch) {
-    std::array<PixelPosition, kTileRays> positions;
+  /// The rays of a tile's pixels, and where their hits go.
+  struct TileRays {
+    size_t count = kTileRays;
+    std::array<PixelPosition, kTileRays> position;
     std::array<uint32_t, kTileRays> places;
-    for (size_t i = 0; i < kTileRays; ++i) {
-      positions[i] = {kTileOrder.middle[i].x + float(tile.x0),
-                      kTileOrder.middle[i].y + float(tile.y0)};
-      places[i] = uint32_t(kTileOrder.y[i]) * uint32_t(frame.width) + kTileOrder.x[i];
-    }
-    size_t n = kTileRays;
-    if (tile.width() < kTileWidth || tile.height() < kTileHeight) {
-      n = 0;
+    Hit* hits;
+
+    TileRays(const PixelRect& tile, Frame& frame) : hits(&frame.at(tile.x0, tile.y0)) {
       for (size_t i = 0; i < kTileRays; ++i) {
-        positions[n] = positions[i], places[n] = places[i];
-        n += size_t(int(kTileOrder.x[i]) < tile.width() && int(kTileOrder.y[i]) < tile.height());
+        position[i] = {kTileOrder.middle[i].x + float(tile.x0),
+                       kTileOrder.middle[i].y + float(tile.y0)};
+        places[i] = kTileOrder.y[i] * uint32_t(frame.width) + kTileOrder.x[i];
+      }
+      if (tile.width() == kTileWidth && tile.height() == kTileHeight) return;
+      count = 0;
+      for (size_t i = 0; i < kTileRays; ++i) {
+        position[count] = position[i], places[count] = places[i];
+        count +=
+            size_t(int(kTileOrder.x[i]) < tile.width() && int(kTileOrder.y[i]) < tile.height());
       }
     }
-    trace_lanes(lanes_, camera, std::span(positions).first(n), places.data(),
-                &frame.at(tile.x0, tile.y0), scratch);
+    std::span<const PixelPosition> positions() const { return std::span(position).first(count); }
+  };
+
+  static int parts(int pixels, int of) { return (pixels + of - 1) / of; }
+
+  /// Calls trace(rays, tile's number, scratch) for all tiles in which something may be seen.
+  template <class Trace>
+  Frame frame_of(const Camera& camera, const Progress& progress, const Trace& trace) {
+    Frame frame = Frame::unfilled(camera.width, camera.height);
+    const PixelRect seen =
+        tree_.region.is_empty() ? PixelRect{} : pixels_covering(camera, world_region());
+    const int columns = parts(camera.width, kBlock), rows = parts(camera.height, kBlock);
+    const int tile_columns = parts(camera.width, kTileWidth);
+    const auto trace_block = [&](int x0, int y0, LaneScratch& scratch) {
+      const int x1 = std::min(x0 + kBlock, camera.width), y1 = std::min(y0 + kBlock, camera.height);
+      for (int y = y0; y < y1; y += kTileHeight)
+        for (int x = x0; x < x1; x += kTileWidth) {
+          const PixelRect tile{x, y, std::min(x + kTileWidth, x1), std::min(y + kTileHeight, y1)};
+          if (tile.x0 < seen.x1 && tile.x1 > seen.x0 && tile.y0 < seen.y1 && tile.y1 > seen.y0)
+            trace(TileRays(tile, frame), size_t(y / kTileHeight * tile_columns + x / kTileWidth),
+                  scratch);
+          else
+            leave_empty(tile, frame, scratch);
+        }
+    };
+    std::atomic<int> done = 0;
+    workers_.for_parts(size_t(columns) * size_t(rows), 1,
+                       [&](size_t first, size_t last, size_t worker) {
+                         LaneScratch& scratch = scratches_.of(worker, lanes_);
+                         for (int block = int(first); block < int(last); ++block) {
+                           trace_block(block % columns * kBlock, block / columns * kBlock, scratch);
+                           const int now = ++done;
+                           if (progress && now % columns == 0)
+                             progress(double(now) / (columns * rows));
+                         }
+                       });
+    return frame;
   }
 
   static void leave_empty(const PixelRect& tile, Frame& frame, LaneScratch& scratch) {
@@ -150,6 +179,7 @@ class CpuTracerImpl final : public CpuTracer {
   const LaneScene lanes_;
   Workers workers_;
   PerWorker<LaneScratch> scratches_;
+  std::vector<TileRecord> records_;  ///< by tile, of the picture that was recorded
 };
 
 }  // namespace

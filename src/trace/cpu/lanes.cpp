@@ -37,11 +37,12 @@ struct Bounds {
 /// Walks a tile through the cells, front to back.
 class Walk {
  public:
-  Walk(const LaneScene& scene, Tile& tile, LaneScratch& scratch)
+  Walk(const LaneScene& scene, Tile& tile, LaneScratch& scratch, TileRecord* record)
       : scene_(scene),
         tile_(tile),
         scratch_(scratch),
         leaves_(scene, tile, scratch),
+        record_(record),
         alone_(kAlone * tile.width) {}
 
   /// Rays that turn different sides to the cells meet them in different order.
@@ -204,8 +205,38 @@ class Walk {
       way_through(planes, p, t0, t1);
       visitors.add(p, bits(t0 < t1) & running_[p], t0, t1);
     }
+    pass(cell);
+  }
+
+  /// Takes the visitors through a cell that is no node.
+  void pass(CellLink cell) {
+    const Visitors& visitors = leaves_.visitors;
+    const size_t recorded = record_ != nullptr ? record_->size() : 0;
+    if (record_ != nullptr) record(cell);
     leaves_.pass(cell);
     for (size_t i = 0; i < visitors.count; ++i) stop(visitors.packet[i]);
+    if (record_ != nullptr) keep_hits(recorded);
+  }
+
+  void record(CellLink cell) {
+    const Visitors& visitors = leaves_.visitors;
+    for (size_t i = 0; i < visitors.count; ++i) {
+      const uint32_t packet = visitors.packet[i];
+      LeafRecord& r = record_->emplace_back();
+      r.leaf = cell;
+      r.packet = packet;
+      r.lanes = visitors.lanes[i];
+      r.known = tile_.known[packet], r.solid = tile_.solid[packet];
+      std::copy_n(visitors.t0 + i * Tile::lanes(), Tile::lanes(), r.t0);
+      std::copy_n(visitors.t1 + i * Tile::lanes(), Tile::lanes(), r.t1);
+    }
+  }
+  void keep_hits(size_t from) {
+    for (size_t i = from; i < record_->size(); ++i)
+      (*record_)[i].lanes &= tile_.hit[(*record_)[i].packet];
+    const auto is_empty = [](const LeafRecord& r) { return r.lanes == 0; };
+    record_->erase(std::remove_if(record_->begin() + ptrdiff_t(from), record_->end(), is_empty),
+                   record_->end());
   }
 
   /// Who met something runs no more.
@@ -258,8 +289,7 @@ class Walk {
       }
       leaves_.visitors.count = 0;
       leaves_.visitors.add(packet, bits(active), t0, t1);
-      leaves_.pass(cell);
-      stop(packet);
+      pass(cell);
       // The next cell that some ray still needs.
       while (true) {
         if (waiting == 0 || running_[packet] == 0) return;
@@ -276,6 +306,7 @@ class Walk {
   Tile& tile_;
   LaneScratch& scratch_;
   LeavesInLanes leaves_;
+  TileRecord* record_;  ///< or none
   double alone_;
 
   uint32_t side_[3] = {};  ///< the nearer child
@@ -287,11 +318,34 @@ class Walk {
 
 void trace_positions(const LaneScene& scene, const Camera& camera,
                      std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
-                     LaneScratch& scratch) {
+                     LaneScratch& scratch, TileRecord* record) {
   Tile tile;
   scratch.stats.rays += positions.size();
   tile.make_rays(scene, camera, positions);
-  Walk(scene, tile, scratch).all();
+  Walk(scene, tile, scratch, record).all();
+  tile.write(scene, places, hits);
+}
+
+void retrace_positions(const LaneScene& scene, const Camera& camera,
+                       std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
+                       LaneScratch& scratch, const TileRecord& record) {
+  Tile tile;
+  scratch.stats.rays += positions.size();
+  tile.make_rays(scene, camera, positions);
+  LeavesInLanes leaves(scene, tile, scratch);
+  for (size_t i = 0; i < record.size();) {
+    // As many packets at once as passed the leaf at once.
+    const size_t first = i;
+    leaves.visitors.count = 0;
+    do {
+      const LeafRecord& r = record[i];
+      tile.known[r.packet] = uint8_t(r.known), tile.solid[r.packet] = uint8_t(r.solid);
+      leaves.visitors.add(r.packet, r.lanes, hn::Load(D(), r.t0), hn::Load(D(), r.t1));
+      ++i;
+    } while (i < record.size() && record[i].leaf.bits() == record[first].leaf.bits() &&
+             record[i].packet > record[i - 1].packet);
+    leaves.pass(record[first].leaf);
+  }
   tile.write(scene, places, hits);
 }
 
@@ -304,11 +358,18 @@ HWY_AFTER_NAMESPACE();
 namespace whittle {
 
 HWY_EXPORT(trace_positions);
+HWY_EXPORT(retrace_positions);
 
 void trace_lanes(const LaneScene& scene, const Camera& camera,
                  std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
-                 LaneScratch& scratch) {
-  HWY_DYNAMIC_DISPATCH(trace_positions)(scene, camera, positions, places, hits, scratch);
+                 LaneScratch& scratch, TileRecord* record) {
+  HWY_DYNAMIC_DISPATCH(trace_positions)(scene, camera, positions, places, hits, scratch, record);
+}
+
+void retrace_lanes(const LaneScene& scene, const Camera& camera,
+                   std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
+                   LaneScratch& scratch, const TileRecord& record) {
+  HWY_DYNAMIC_DISPATCH(retrace_positions)(scene, camera, positions, places, hits, scratch, record);
 }
 
 }  // namespace whittle

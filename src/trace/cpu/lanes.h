@@ -50,10 +50,26 @@ struct LaneScratch {
   TraceStats stats;
 };
 
+/// Rays of a packet that meet something in a leaf: how they come there, and between which t.
+struct LeafRecord {
+  CellLink leaf;
+  uint32_t packet;
+  uint32_t lanes, known, solid;
+  alignas(64) double t0[kMaxLanes], t1[kMaxLanes];
+};
+/// Of the rays of one tile.
+using TileRecord = std::vector<LeafRecord>;
+
 /// The hits of the rays through `positions`, at most kTileRays, which had better be close to one
-/// another. That of positions[i] is written to hits[places[i]].
+/// another. That of positions[i] is written to hits[places[i]]. If there is a record, it is filled.
 void trace_lanes(const LaneScene& scene, const Camera& camera,
                  std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
-                 LaneScratch& scratch);
+                 LaneScratch& scratch, TileRecord* record = nullptr);
+
+/// The same hits from what trace_lanes() recorded with the same instruction set: no walk, only the
+/// leaves in which something is met.
+void retrace_lanes(const LaneScene& scene, const Camera& camera,
+                   std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
+                   LaneScratch& scratch, const TileRecord& record);
 
 }  // namespace whittle
