@@ -33,6 +33,8 @@ struct LaneScene {
   double together;                         ///< crossings closer than this happen together
   Box clip;                                ///< rays are cut to it: the region and half the margin
   std::vector<LaneHalfSpace> half_spaces;  ///< by number
+  /// False: every ray is solved by itself, by LeafSolver, whose answers lanes must have. For tests.
+  bool solves_in_lanes = true;
 };
 
 inline constexpr size_t kMaxLanes = 8;

@@ -246,7 +246,7 @@ inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
     waiting_count_ += open_[i] != 0;
   }
   if (waiting_count_ == 0) return;
-  if (literals.size() <= kTableLiterals) {
+  if (literals.size() <= kTableLiterals && scene_.solves_in_lanes) {
     find_roots(literals);
     for (size_t w = 0; w < waiting_count_; ++w)
       open_[waiting_[w]] = solve_in_lanes(leaf, literals, waiting_[w]);
