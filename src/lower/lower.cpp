@@ -147,7 +147,7 @@ Result<Scene> lower(const Model& model) {
   scene.region = {region.lo - scene.origin, region.hi - scene.origin};
 
   const Affine local_from_world = translation(-scene.origin);
-  HalfSpaceTable table(max_component(scene.region.size()) / 2);
+  HalfSpaceTable table(max_component(scene.region.size()) / 2, scene.tolerance);
   std::vector<uint32_t> unit_of_node(model.nodes.size(), 0);
   LoweredPrimitive lowered;
   for (const Instance& instance : instances(model)) {
