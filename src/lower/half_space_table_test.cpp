@@ -106,10 +106,13 @@ TEST(HalfSpaceTable, FindsTheCurvesThatLookingAtAllFinds) {
   for (int family = 0; family < 300; ++family) {
     // Some parts are squashed a thousandfold, some reach out of the region.
     Affine map;
-    for (Vec3& row : map.row) row = random.vector();
-    const Vec3 squash{random.small(3), random.small(3), 1};
+    const bool is_round = random.bits() % 2;
+    if (!is_round)
+      for (Vec3& row : map.row) row = random.vector();
+    const Vec3 squash = is_round ? Vec3{1, 1, 1} : Vec3{random.small(3), random.small(3), 1};
+    const double size = random.small(2);
     for (Vec3& row : map.row)
-      row = Vec3{row.x * squash.x, row.y * squash.y, row.z * squash.z} * random.small(2);
+      row = Vec3{row.x * squash.x, row.y * squash.y, row.z * squash.z} * size;
     map.translation = random.vector() * (random.bits() % 8 ? 1.0 : 30.0);
     const Shape shapes[] = {Sphere{1}, Cylinder{1, 1, 1, true}, Cylinder{2, 1, 0.5, false}};
     const Shape& shape = shapes[family % 3];
