@@ -9,8 +9,9 @@
 namespace whittle {
 namespace {
 
-/// Samples traced at a time: enough to keep a tracer's threads busy, and bounded memory.
-constexpr size_t kSamplesPerBatch = size_t(1) << 20;
+/// Samples traced at a time: enough to keep a tracer's threads busy, and little enough to stay in
+/// the processor's caches.
+constexpr size_t kSamplesPerBatch = size_t(1) << 16;
 constexpr size_t kPixelsPerTask = 64;
 
 /// Where the mask is set, in order.
