@@ -4,7 +4,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -225,10 +224,10 @@ std::string describe(const Json& m) {
 
 int bench_command(Arguments arguments) {
   constexpr int kMostRepeats = 100000;
-  CLI::App app;
-  set_help(app, kHelp);
+  CommandLine line(kHelp);
+  CLI::App& app = line.app();
   BenchArguments a;
-  app.add_option("FILE", a.files)->required();
+  line.add_required("FILE", a.files);
   OptionGroup group(app, "Measurement");
   group.add_count("--repeat", "N", a.repeat, 1, kMostRepeats, "times that all is done (5)");
   group.add_flag("--json", a.wants_json, "an array with one object a file");
@@ -236,7 +235,7 @@ int bench_command(Arguments arguments) {
   add_loading_options(app, a.loading);
   add_machine_options(app, a.renderer, a.without_effect);
   add_subdivision_options(app, a.subdivision);
-  if (const std::optional<int> code = parse(app, arguments)) return *code;
+  if (const std::optional<int> code = line.parse(arguments)) return *code;
   if (std::ranges::find(a.files, "-") != a.files.end()) {
     return report({ErrorKind::kUsage, "standard input cannot be read again; bench wants files"});
   }

@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string_view>
 #include <vector>
@@ -73,21 +72,16 @@ void set(Limits& limits, const std::string& text) {
 
 void add_limit_option(CLI::App& app, Limits& limits) {
   const Limits defaults;
-  app.add_option_function<std::vector<std::string>>(
-         kOption,
-         [&limits](const std::vector<std::string>& all) {
-           for (const std::string& one : all) set(limits, one);
-         },
-         fmt::format("what is too much; and --limit again for more:\n"
-                     "bytes={}, depth={}, nodes={},\n"
-                     "values={} (of one statement), facets={},\n"
-                     "cells={}, memory=SIZE (what the machine has);\n"
-                     "of bytes and memory also as in 100K, 100M, 2G",
-                     defaults.reading.bytes, defaults.reading.depth, defaults.reading.nodes,
-                     defaults.reading.values, defaults.reading.facets, defaults.cells))
-      ->allow_extra_args(false)
-      ->type_name("NAME=VALUE")
-      ->group("Machine");
+  OptionGroup(app, "Machine")
+      .add_each(kOption, "NAME=VALUE",
+                fmt::format("what is too much; and --limit again for more:\n"
+                            "bytes={}, depth={}, nodes={},\n"
+                            "values={} (of one statement), facets={},\n"
+                            "cells={}, memory=SIZE (what the machine has);\n"
+                            "of bytes and memory also as in 100K, 100M, 2G",
+                            defaults.reading.bytes, defaults.reading.depth, defaults.reading.nodes,
+                            defaults.reading.values, defaults.reading.facets, defaults.cells),
+                [&limits](const std::string& text) { set(limits, text); });
 }
 
 void limit_memory(uint64_t bytes) {
