@@ -85,7 +85,7 @@ void add_limit_option(CLI::App& app, Limits& limits) {
 }
 
 void limit_memory(uint64_t bytes) {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !defined(WHITTLE_SANITIZED)
   rlimit limit{};
   ::getrlimit(RLIMIT_DATA, &limit);
   limit.rlim_cur = std::min<rlim_t>(bytes, limit.rlim_max);

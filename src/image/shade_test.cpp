@@ -11,7 +11,7 @@
 namespace whittle {
 namespace {
 
-const Workers kWorkers(0);
+const Workers kAllWorkers(0);
 
 /// A camera as OpenSCAD's default view: rotation (55, 0, 25).
 Camera default_camera(int width = 4, int height = 4) {
@@ -90,7 +90,7 @@ TEST(Shade, ASchemeReplacesTheColorsInEveryStyle) {
   for (const Style style : kAllStyles) {
     ShadeSettings settings = styled(style);
     settings.scheme = find_color_scheme("Sunset");
-    const Picture p = shade(Frame(4, 4), default_camera(), {}, settings, kWorkers);
+    const Picture p = shade(Frame(4, 4), default_camera(), {}, settings, kAllWorkers);
     EXPECT_EQ(at(p, 1, 2), (Rgb8{0xAA, 0x44, 0x44}));
     EXPECT_EQ(p.at(1, 2)[3], 255);
   }
@@ -99,7 +99,7 @@ TEST(Shade, ASchemeReplacesTheColorsInEveryStyle) {
 TEST(Shade, ClearSkyRunsFromTopToBottom) {
   ShadeSettings settings = styled(Style::kOpenscad);
   settings.scheme = find_color_scheme("ClearSky");
-  const Picture p = shade(Frame(2, 400), default_camera(2, 400), {}, settings, kWorkers);
+  const Picture p = shade(Frame(2, 400), default_camera(2, 400), {}, settings, kAllWorkers);
   EXPECT_EQ(at(p, 0, 0), (Rgb8{0x87, 0xCE, 0xEB}));
   EXPECT_EQ(at(p, 1, 399), (Rgb8{0xC9, 0xE9, 0xF6}));
   EXPECT_EQ(at(p, 0, 199).r, (0x87 + 0xC9) / 2);
@@ -111,7 +111,7 @@ TEST(Shade, WithoutBackgroundWhatIsNotHitIsTransparent) {
   for (const Style style : kAllStyles) {
     ShadeSettings settings = styled(style);
     settings.background = false;
-    const Picture p = shade(frame, default_camera(2, 1), kAppearances, settings, kWorkers);
+    const Picture p = shade(frame, default_camera(2, 1), kAppearances, settings, kAllWorkers);
     EXPECT_EQ(p.at(0, 0)[3], 0);
     EXPECT_EQ(p.at(1, 0)[3], 255);
   }
@@ -212,7 +212,7 @@ TEST(Shade, ThePictureIsTheShadersColorOfEveryPixelWhateverTheThreads) {
   }
   const Camera camera = default_camera(61, 47);
   for (const Style style : kAllStyles) {
-    const Picture p = shade(frame, camera, kAppearances, styled(style), kWorkers);
+    const Picture p = shade(frame, camera, kAppearances, styled(style), kAllWorkers);
     const Shader shader(camera, kAppearances, styled(style));
     for (int y = 0; y < frame.height; ++y) {
       for (int x = 0; x < frame.width; ++x) {
