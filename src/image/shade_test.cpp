@@ -14,7 +14,7 @@
 namespace whittle {
 namespace {
 
-const Workers kWorkers(0);
+const Workers kAllWorkers(0);
 
 /// A camera as OpenSCAD's default view: rotation (55, 0, 25).
 Camera default_camera(int width = 4, int height = 4) {
@@ -113,7 +113,7 @@ TEST(Shade, ASchemeReplacesTheColorsInEveryStyle) {
   for (const Style style : kAllStyles) {
     ShadeSettings settings = styled(style);
     settings.scheme = find_color_scheme("Sunset");
-    const Picture p = shade(Frame(4, 4), default_camera(), {}, settings, kWorkers);
+    const Picture p = shade(Frame(4, 4), default_camera(), {}, settings, kAllWorkers);
     EXPECT_EQ(at(p, 1, 2), (Rgb8{0xAA, 0x44, 0x44}));
     EXPECT_EQ(p.at(1, 2)[3], 255);
   }
@@ -122,7 +122,7 @@ TEST(Shade, ASchemeReplacesTheColorsInEveryStyle) {
 TEST(Shade, ClearSkyRunsFromTopToBottom) {
   ShadeSettings settings = styled(Style::kOpenscad);
   settings.scheme = find_color_scheme("ClearSky");
-  const Picture p = shade(Frame(2, 400), default_camera(2, 400), {}, settings, kWorkers);
+  const Picture p = shade(Frame(2, 400), default_camera(2, 400), {}, settings, kAllWorkers);
   EXPECT_EQ(at(p, 0, 0), (Rgb8{0x87, 0xCE, 0xEB}));
   EXPECT_EQ(at(p, 1, 399), (Rgb8{0xC9, 0xE9, 0xF6}));
   EXPECT_EQ(at(p, 0, 199).r, (0x87 + 0xC9) / 2);
@@ -134,7 +134,7 @@ TEST(Shade, WithoutBackgroundWhatIsNotHitIsTransparent) {
   for (const Style style : kAllStyles) {
     ShadeSettings settings = styled(style);
     settings.background = false;
-    const Picture p = shade(frame, default_camera(2, 1), kAppearances, settings, kWorkers);
+    const Picture p = shade(frame, default_camera(2, 1), kAppearances, settings, kAllWorkers);
     EXPECT_EQ(p.at(0, 0)[3], 0);
     EXPECT_EQ(p.at(1, 0)[3], 255);
   }
