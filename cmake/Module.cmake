@@ -18,6 +18,8 @@ function(whittle_module name)
   set_property(GLOBAL APPEND PROPERTY WHITTLE_MODULES whittle_${name})  # for Install.cmake
   if(WHITTLE_TESTS AND arg_TESTS)
     add_executable(${name}_test ${arg_TESTS})
+    set_target_properties(${name}_test PROPERTIES UNITY_BUILD ${WHITTLE_JOIN_TESTS}
+                                                  UNITY_BUILD_BATCH_SIZE 0)
     target_link_libraries(${name}_test PRIVATE whittle_${name} ${arg_TEST_DEPENDS} rapidcheck
                           GTest::gtest GTest::gtest_main)
     gtest_discover_tests(${name}_test TEST_PREFIX "${name}/" DISCOVERY_TIMEOUT 60

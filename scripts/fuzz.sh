@@ -37,7 +37,7 @@ while (($#)); do
   esac
 done
 
-need_packages "${build_packages[@]}" "${test_packages[@]}" "${fuzz_packages[@]}"
+need_packages "${build_packages[@]}" "${test_packages[@]}" "${sanitizer_packages[@]}"
 cd "$root"
 say "building the fuzzers"
 cmake --preset "$preset" --log-level=WARNING >/dev/null

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -15,60 +13,6 @@
 #include "statistics.h"
 
 namespace whittle {
-namespace {
-
-/// CLI11's help with our usage line.
-class HelpFormatter : public CLI::Formatter {
- public:
-  explicit HelpFormatter(std::string usage) : usage_(std::move(usage)) { column_width(33); }
-
-  std::string make_usage(const CLI::App*, std::string) const override {
-    return "\nUsage: " + usage_ + "\n";
-  }
-  std::string make_positionals(const CLI::App*) const override { return {}; }
-  /// One empty line between groups, not two.
-  std::string make_help(const CLI::App* app, std::string name,
-                        CLI::AppFormatMode mode) const override {
-    return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, std::move(name), mode),
-                                         "\n\n\n", "\n\n");
-  }
-  /// Without what CLI11 says about types and multiplicity: our descriptions do.
-  std::string make_option_opts(const CLI::Option* option) const override {
-    if (option->get_type_size() == 0) return {};
-    return " " + option->get_type_name();
-  }
-
- private:
-  std::string usage_;
-};
-
-}  // namespace
-
-void set_help(CLI::App& app, const CommandHelp& help) {
-  app.name(help.name);
-  app.description(help.description);
-  app.footer(help.footer);
-  app.formatter(std::make_shared<HelpFormatter>(std::string(help.name) + " " + help.usage));
-}
-
-std::optional<int> parse(CLI::App& app, Arguments arguments) {
-  // Added last, so that it comes last in the help.
-  app.set_help_flag("-h,--help", "say this and stop")->group("Other");
-  // CLI11 takes them last first.
-  std::vector<std::string> words(arguments.rbegin(), arguments.rend());
-  try {
-    app.parse(std::move(words));
-    return std::nullopt;
-  } catch (const CLI::CallForHelp&) {
-    return print(app.help());
-  } catch (const CLI::CallForVersion& version) {
-    return print(std::string(version.what()) + "\n");
-  } catch (const CLI::ParseError& mistake) {
-    return report(
-        {ErrorKind::kUsage, fmt::format("{}\nTry '{} --help'.", mistake.what(), app.get_name())});
-  }
-}
-
 void add_loading_options(CLI::App& app, Loading& loading) {
   OptionGroup group(app, "Reading");
   group.add_choice("--curves", curves_choices(), "kind of curves",
@@ -168,7 +112,7 @@ void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffec
   group.add_text("--backend", "NAME",
                  fmt::format("{}; auto: the fastest that works here", names_of(backend_choices())),
                  [&](const std::string& name) {
-                   const std::string lower = CLI::detail::to_lower(name);
+                   const std::string lower = to_lower(name);
                    if (lower == "manifold" || lower == "cgal") {
                      without_effect.missed.push_back("--backend " + name);
                      return;
@@ -188,9 +132,16 @@ void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffec
 void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments) {
   constexpr uint32_t kMostLeafSize = 1000;
   OptionGroup group(app, "Subdivision");
-  group.add_count("--leaf-size", "K", arguments.leaf_size, 1u, kMostLeafSize,
-                  fmt::format("half-spaces a leaf ({}), 1 to {}", SubdivideSettings{}.leaf_size,
-                              kMostLeafSize));
+  group.add_text("--leaf-size", "K",
+                 fmt::format("half-spaces a leaf, 1 to {}, or auto (auto): as many as\n"
+                             "cost the rays less than splitting would",
+                             kMostLeafSize),
+                 [&](const std::string& text) {
+                   arguments.leaf_size =
+                       text == "auto"
+                           ? kAutoLeafSize
+                           : uint32_t(parse_count("--leaf-size", text, 1, kMostLeafSize));
+                 });
   group.add_choice("--split", split_choices(), "split rule", "which axis is cut: {}",
                    [&](SplitRule rule) { arguments.split = rule; });
   group.add_text("--pixel-threshold", "PIXELS", "split no cell whose edges all look shorter (0)",
@@ -228,7 +179,7 @@ void apply(const SubdivisionArguments& arguments, RendererSettings& settings) {
     s.ignore_small = true;
     settings.pixel_threshold = 1;
   }
-  if (arguments.leaf_size != 0) s.leaf_size = arguments.leaf_size;
+  s.leaf_size = arguments.leaf_size.value_or(s.leaf_size);
   s.memory = arguments.memory.value_or(s.memory);
   s.split = arguments.split.value_or(s.split);
   s.ignore_small = arguments.ignore_small.value_or(s.ignore_small);
@@ -256,20 +207,16 @@ void add_openscad_options(CLI::App& app, WithoutEffect& without_effect) {
                                   {"--check-parameters", false},
                                   {"--check-parameter-ranges", false}};
   // No heading: the help's last lines name them.
+  OptionGroup group(app, "");
   for (const Ignored& ignored : kIgnored) {
-    app.add_option_function<std::vector<std::string>>(
-           ignored.name,
-           [&without_effect, ignored](const std::vector<std::string>&) {
-             if (ignored.is_missed) without_effect.missed.emplace_back(ignored.name);
-           })
-        ->allow_extra_args(false)
-        ->group("");
+    group.add_each(ignored.name, "", "", [&without_effect, ignored](const std::string&) {
+      if (ignored.is_missed) without_effect.missed.emplace_back(ignored.name);
+    });
   }
-  app.add_flag_callback("--hardwarnings",
-                        [&] { without_effect.missed.emplace_back("--hardwarnings"); })
-      ->group("");
+  group.add_flag(
+      "--hardwarnings", [&] { without_effect.missed.emplace_back("--hardwarnings"); }, "");
   // A value comes only after `=`: the next word is FILE.
-  app.add_flag("--render,--preview", without_effect.values)->group("");
+  group.add_flag("--render,--preview", without_effect.values, "");
 }
 
 void say_without_effect(const WithoutEffect& without_effect) {

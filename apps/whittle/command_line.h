@@ -1,35 +1,18 @@
-// The options that commands share, and the way all of them read their command line.
+// The options that commands share.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "commands.h"
 #include "image/shade.h"
 #include "io/read.h"
 #include "limits.h"
+#include "option_group.h"
 #include "trace/view.h"
 #include "whittle/renderer.h"
 
-namespace CLI {  // NOLINT(readability-identifier-naming): CLI11 has named it
-class App;
-}
-
 namespace whittle {
-
-/// A command's name and what its --help says besides the options.
-struct CommandHelp {
-  const char* name;         ///< as in "whittle info"
-  const char* description;  ///< first of all
-  const char* usage;        ///< after the name
-  const char* footer;       ///< examples and exit codes
-};
-void set_help(CLI::App& app, const CommandHelp& help);
-
-/// Reads the command line. If that is the end of it (--help, or a mistake, which is then said), the
-/// exit code.
-std::optional<int> parse(CLI::App& app, Arguments arguments);
 
 struct Loading {
   Curves curves = Curves::kAuto;
@@ -65,7 +48,7 @@ void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffec
 
 struct SubdivisionArguments {
   bool paper = false;
-  uint32_t leaf_size = 0;  ///< 0: as the rules have it
+  std::optional<uint32_t> leaf_size;
   std::optional<SplitRule> split;
   std::optional<size_t> memory;
   std::optional<double> pixel_threshold;

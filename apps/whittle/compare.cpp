@@ -1,7 +1,6 @@
 // whittle compare A.exr B.exr: do two pictures state the same facts?
 #include "image/compare.h"
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "base/box.h"
@@ -43,14 +42,13 @@ Status write_difference(const std::string& path, const Frame& a, const Frame& b,
 }  // namespace
 
 int compare_command(Arguments arguments) {
-  CLI::App app;
-  set_help(app, kHelp);
+  CommandLine line(kHelp);
   std::string file_a, file_b, picture;
   CompareSettings settings;
   bool quiet = false;
-  app.add_option("A.exr", file_a)->required();
-  app.add_option("B.exr", file_b)->required();
-  OptionGroup what(app, "What still counts as equal"), output(app, "Output");
+  line.add_required("A.exr", file_a);
+  line.add_required("B.exr", file_b);
+  OptionGroup what(line.app(), "What still counts as equal"), output(line.app(), "Output");
   what.add_number("--distance", "SHARE", settings.distance_relative, 0, kInfinity,
                   "of the distance (1e-5)");
   what.add_number("--distance-floor", "UNITS", settings.distance_floor, 0, kInfinity,
@@ -66,7 +64,7 @@ int compare_command(Arguments arguments) {
                     picture = path;
                   });
   output.add_flag("-q,--quiet", quiet, "the exit code says it all");
-  if (const std::optional<int> code = parse(app, arguments)) return *code;
+  if (const std::optional<int> code = line.parse(arguments)) return *code;
 
   const Result<Frame> a = read_exr(file_a);
   if (!a) return report(a.error());

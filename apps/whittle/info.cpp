@@ -1,7 +1,6 @@
 // whittle info FILE: what is in a file.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -142,15 +141,15 @@ std::string describe_text(const Read& read, const Info& info) {
 }  // namespace
 
 int info_command(Arguments arguments) {
-  CLI::App app;
-  set_help(app, kHelp);
+  CommandLine line(kHelp);
   std::string file;
   bool wants_json = false;
   Loading loading;
-  app.add_option("FILE", file)->required();
-  OptionGroup(app, "Output").add_flag("--json", wants_json, "one JSON object, warnings in it");
-  add_loading_options(app, loading);
-  if (const std::optional<int> code = parse(app, arguments)) return *code;
+  line.add_required("FILE", file);
+  OptionGroup(line.app(), "Output")
+      .add_flag("--json", wants_json, "one JSON object, warnings in it");
+  add_loading_options(line.app(), loading);
+  if (const std::optional<int> code = line.parse(arguments)) return *code;
 
   if (wants_json) loading.quiet = true;
   const Result<Read> read = load(file, loading);

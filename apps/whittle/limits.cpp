@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string_view>
 #include <vector>
@@ -70,25 +69,20 @@ uint64_t parse_bytes(const char* option, const std::string& text, uint64_t most)
 
 void add_limit_option(CLI::App& app, ReadLimits& limits) {
   const ReadLimits defaults;
-  app.add_option_function<std::vector<std::string>>(
-         kOption,
-         [&limits](const std::vector<std::string>& all) {
-           for (const std::string& one : all) set(limits, one);
-         },
-         fmt::format("what is too much; and --limit again for more:\n"
-                     "bytes={}, depth={}, nodes={},\n"
-                     "values={} (of one statement), facets={},\n"
-                     "memory=SIZE (what the machine has);\n"
-                     "of bytes and memory also as in 100K, 100M, 2G",
-                     defaults.bytes, defaults.depth, defaults.nodes, defaults.values,
-                     defaults.facets))
-      ->allow_extra_args(false)
-      ->type_name("NAME=VALUE")
-      ->group("Machine");
+  OptionGroup(app, "Machine")
+      .add_each(kOption, "NAME=VALUE",
+                fmt::format("what is too much; and --limit again for more:\n"
+                            "bytes={}, depth={}, nodes={},\n"
+                            "values={} (of one statement), facets={},\n"
+                            "memory=SIZE (what the machine has);\n"
+                            "of bytes and memory also as in 100K, 100M, 2G",
+                            defaults.bytes, defaults.depth, defaults.nodes, defaults.values,
+                            defaults.facets),
+                [&limits](const std::string& text) { set(limits, text); });
 }
 
 void limit_memory(uint64_t bytes) {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !defined(WHITTLE_SANITIZED)
   rlimit limit{};
   ::getrlimit(RLIMIT_DATA, &limit);
   limit.rlim_cur = std::min<rlim_t>(bytes, limit.rlim_max);

@@ -1,11 +1,12 @@
 // whittle model NAME [N]: models made to measure, as .csg or for POV-Ray.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <charconv>
 #include <climits>
 #include <iterator>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "command_line.h"
 #include "commands.h"
@@ -52,7 +53,7 @@ std::string list() {
 }
 
 bool has_ending(const std::string& path, const char* ending) {
-  return CLI::detail::to_lower(path).ends_with(ending);
+  return to_lower(path).ends_with(ending);
 }
 
 Result<std::string> make_text(const ModelArguments& a) {
@@ -73,19 +74,21 @@ Result<std::string> make_text(const ModelArguments& a) {
 }  // namespace
 
 int model_command(Arguments arguments) {
-  CLI::App app;
-  set_help(app, kHelp);
+  CommandLine line(kHelp);
+  CLI::App& app = line.app();
   ModelArguments a;
   a.shading.style = Style::kBlinn;
-  app.add_option("NAME", a.name);
-  app.add_option_function<std::string>(
+  line.add_optional("NAME", [&](const std::string& name) { a.name = name; });
+  line.add_optional(
       "N", [&](const std::string& text) { a.n = int(parse_count("N", text, 0, INT_MAX)); });
   OptionGroup output(app, "Model");
   output.add_flag("--list", a.wants_list, "say which models there are, and stop");
   // As text: a double does not hold every seed.
   output.add_text("--seed", "S", fmt::format("for models with chance in them ({})", kDefaultSeed),
                   [&](const std::string& text) {
-                    if (!CLI::detail::lexical_cast(text, a.seed) || text.starts_with('-')) {
+                    const char* end = text.data() + text.size();
+                    const auto [rest, code] = std::from_chars(text.data(), end, a.seed);
+                    if (code != std::errc() || rest != end) {
                       refuse("--seed", fmt::format("wants a whole number from 0, not {}", text));
                     }
                   });
@@ -93,7 +96,7 @@ int model_command(Arguments arguments) {
                   [&](const std::string& path) { a.output = path; });
   add_view_options(app, a.view);
   add_color_options(app, a.shading);
-  if (const std::optional<int> code = parse(app, arguments)) return *code;
+  if (const std::optional<int> code = line.parse(arguments)) return *code;
 
   if (a.wants_list) return print(list());
   if (a.name.empty()) {

@@ -5,8 +5,87 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <utility>
+
+#include "console.h"
 
 namespace whittle {
+namespace {
+
+/// CLI11's help with our usage line.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  explicit HelpFormatter(std::string usage) : usage_(std::move(usage)) { column_width(33); }
+
+  std::string make_usage(const CLI::App*, std::string) const override {
+    return "\nUsage: " + usage_ + "\n";
+  }
+  std::string make_positionals(const CLI::App*) const override { return {}; }
+  /// One empty line between groups, not two.
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, std::move(name), mode),
+                                         "\n\n\n", "\n\n");
+  }
+  /// Without what CLI11 says about types and multiplicity: our descriptions do.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    if (option->get_type_size() == 0) return {};
+    return " " + option->get_type_name();
+  }
+
+ private:
+  std::string usage_;
+};
+
+}  // namespace
+
+CommandLine::CommandLine(const CommandHelp& help) : app_(std::make_unique<CLI::App>()) {
+  app_->name(help.name);
+  app_->description(help.description);
+  app_->footer(help.footer);
+  app_->formatter(std::make_shared<HelpFormatter>(std::string(help.name) + " " + help.usage));
+}
+
+CommandLine::~CommandLine() = default;
+
+void CommandLine::add_required(const char* name, std::string& word) {
+  app_->add_option(name, word)->required();
+}
+
+void CommandLine::add_required(const char* name, std::vector<std::string>& words) {
+  app_->add_option(name, words)->required();
+}
+
+void CommandLine::add_optional(const char* name,
+                               const std::function<void(const std::string&)>& set) {
+  app_->add_option_function<std::string>(name, set);
+}
+
+void CommandLine::add_version(const char* version) {
+  app_->set_version_flag("-v,--version", version, "say the version and stop")->group("Other");
+}
+
+std::optional<int> CommandLine::parse(Arguments arguments) {
+  // Added last, so that it comes last in the help.
+  app_->set_help_flag("-h,--help", "say this and stop")->group("Other");
+  // CLI11 takes them last first.
+  std::vector<std::string> words(arguments.rbegin(), arguments.rend());
+  try {
+    app_->parse(std::move(words));
+    return std::nullopt;
+  } catch (const CLI::CallForHelp&) {
+    return print(app_->help());
+  } catch (const CLI::CallForVersion& version) {
+    return print(std::string(version.what()) + "\n");
+  } catch (const CLI::ParseError& mistake) {
+    return report(
+        {ErrorKind::kUsage, fmt::format("{}\nTry '{} --help'.", mistake.what(), app_->get_name())});
+  }
+}
+
+std::string to_lower(std::string text) {
+  return CLI::detail::to_lower(std::move(text));
+}
 
 void refuse(const char* option, const std::string& why) {
   throw CLI::ValidationError(option, why);
@@ -51,12 +130,35 @@ void OptionGroup::add_flag(const char* names, bool& given, const char* descripti
   app_.add_flag(names, given, description)->group(heading_);
 }
 
+void OptionGroup::add_flag(const char* names, const std::function<void()>& given,
+                           const char* description) {
+  app_.add_flag_callback(names, given, description)->group(heading_);
+}
+
+void OptionGroup::add_flag(const char* names, std::vector<std::string>& values,
+                           const char* description) {
+  app_.add_flag(names, values, description)->group(heading_);
+}
+
 void OptionGroup::add_text(const char* name, const char* value, const std::string& description,
                            const std::function<void(const std::string&)>& set) {
   app_.add_option_function<std::string>(name, set, description)
       ->type_name(value)
       ->group(heading_)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
+void OptionGroup::add_each(const char* name, const char* value, const std::string& description,
+                           const std::function<void(const std::string&)>& take) {
+  app_.add_option_function<std::vector<std::string>>(
+          name,
+          [take](const std::vector<std::string>& all) {
+            for (const std::string& one : all) take(one);
+          },
+          description)
+      ->allow_extra_args(false)
+      ->type_name(value)
+      ->group(heading_);
 }
 
 void OptionGroup::add_number(const char* name, const char* value, double& number, double least,

@@ -1,7 +1,6 @@
 // whittle FILE -o OUT: makes pictures of a model.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <string>
@@ -68,13 +67,12 @@ double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-void add_options(CLI::App& app, RenderArguments& a) {
-  app.add_option("FILE", a.file)->required();
-  app.add_option("-o", a.outputs, "a .png or .exr, and -o again for more; '-': standard output")
-      ->allow_extra_args(false)
-      ->type_name("OUT")
-      ->group("Output");
+void add_options(CommandLine& line, RenderArguments& a) {
+  CLI::App& app = line.app();
+  line.add_required("FILE", a.file);
   OptionGroup output(app, "Output"), look(app, "Look"), machine(app, "Machine");
+  output.add_each("-o", "OUT", "a .png or .exr, and -o again for more; '-': standard output",
+                  [&](const std::string& path) { a.outputs.push_back(path); });
   output.add_choice("--export-format", format_choices(), "format", "{}, whatever OUT ends in",
                     [&](FileFormat format) { a.export_format = format; });
   output.add_choice("--pass", pass_choices(), "pass", "what a PNG shows: {}",
@@ -91,8 +89,7 @@ void add_options(CLI::App& app, RenderArguments& a) {
   machine.add_flag("--stats", a.wants_statistics, "say what was done and what it cost");
   add_subdivision_options(app, a.subdivision);
   add_openscad_options(app, a.without_effect);
-  app.set_version_flag("-v,--version", "whittle " WHITTLE_VERSION, "say the version and stop")
-      ->group("Other");
+  line.add_version("whittle " WHITTLE_VERSION);
 }
 
 Result<std::vector<Output>> choose_outputs(const RenderArguments& a) {
@@ -195,11 +192,10 @@ Status render(RenderArguments& a) {
 }  // namespace
 
 int render_command(Arguments arguments) {
-  CLI::App app;
+  CommandLine line(kHelp);
   RenderArguments a;
-  set_help(app, kHelp);
-  add_options(app, a);
-  if (const std::optional<int> code = parse(app, arguments)) return *code;
+  add_options(line, a);
+  if (const std::optional<int> code = line.parse(arguments)) return *code;
   const Status done = render(a);
   return done ? kExitDone : report(done.error());
 }

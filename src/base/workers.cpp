@@ -1,6 +1,6 @@
 #include "base/workers.h"
 
-#if defined(__SANITIZE_THREAD__)
+#if defined(WHITTLE_SANITIZED_THREADS)
 #include <algorithm>
 #include <exception>
 #include <thread>
@@ -14,7 +14,7 @@
 
 namespace whittle {
 
-#if defined(__SANITIZE_THREAD__)
+#if defined(WHITTLE_SANITIZED_THREADS)
 
 // The thread sanitizer does not see how oneTBB, which is not built with it, hands work from thread
 // to thread, and would take that for races. These are threads that it does see.

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "image/srgb.h"
+#include "support/instruction_sets.h"
 #include "trace/view.h"
 
 namespace whittle {
@@ -218,6 +219,25 @@ TEST(Antialias, ACreaseOfOneOwnerIsAnEdge) {
   FunctionTracer flat = crease_tracer(7), sharp = crease_tracer(9);
   EXPECT_EQ(count(edge_mask(flat.render(camera, {}), camera, kWorkers)), 0u);
   EXPECT_EQ(count(edge_mask(sharp.render(camera, {}), camera, kWorkers)), 8u);
+}
+
+TEST(Antialias, EveryInstructionSetFindsTheSameEdges) {
+  // One owner's wave with a crease, a step and a hole, and another owner beside it.
+  FunctionTracer wave([](const Ray& ray) -> Hit {
+    const double x = ray.origin.x, y = ray.origin.y;
+    if (std::fabs(x - y) < 1) return {};
+    const double z = 4 * std::sin(x / 12) + (y > 10 ? 4 : 0);
+    const Vec3 n = normalize(Vec3{y > 3 ? -std::cos(x / 12) / 3 : 0, 0, 1});
+    return {float(ray.origin.z - z), y < -12 ? 2u : 1u, {float(n.x), float(n.y), float(n.z)}};
+  });
+  for (const int width : {1, 2, 17, 40}) {
+    const Camera camera = top_camera(width, 40);
+    const Frame frame = wave.render(camera, {});
+    const std::vector<uint8_t> expected = edge_mask(frame, camera, Workers(1));
+    EXPECT_GT(count(expected), expected.size() / 20);
+    EXPECT_LT(count(expected), expected.size());
+    for_every_instruction_set([&] { EXPECT_EQ(edge_mask(frame, camera, kWorkers), expected); });
+  }
 }
 
 TEST(Antialias, IsTheSameOnOneThread) {

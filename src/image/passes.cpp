@@ -9,7 +9,7 @@ namespace {
 
 template <class ColorOf>
 Picture paint(const Frame& frame, ColorOf color_of) {
-  Picture picture(frame.width, frame.height);
+  Picture picture = Picture::unfilled(frame.width, frame.height);
   for (size_t i = 0; i < frame.hits.size(); ++i) {
     const Vec3f c = frame.hits[i].hit() ? color_of(frame.hits[i]) : Vec3f{};
     uint8_t* p = &picture.rgba[4 * i];

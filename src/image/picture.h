@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "base/uninitialized.h"
 #include "base/vec.h"
 
 namespace whittle {
@@ -11,10 +11,17 @@ namespace whittle {
 /// 8 bits a channel, sRGB for display, straight (not premultiplied) alpha, rows from the top.
 struct Picture {
   int width = 0, height = 0;
-  std::vector<uint8_t> rgba;  ///< 4 * width * height
+  UninitializedVector<uint8_t> rgba;  ///< 4 * width * height
 
   Picture() = default;
-  Picture(int w, int h) : width(w), height(h), rgba(4 * size_t(w) * size_t(h)) {}
+  Picture(int w, int h) : width(w), height(h), rgba(4 * size_t(w) * size_t(h), 0) {}
+  /// For whoever writes every pixel, on many threads.
+  static Picture unfilled(int w, int h) {
+    Picture picture;
+    picture.width = w, picture.height = h;
+    picture.rgba.resize(4 * size_t(w) * size_t(h));
+    return picture;
+  }
   const uint8_t* at(int x, int y) const {
     return &rgba[4 * (size_t(y) * size_t(width) + size_t(x))];
   }

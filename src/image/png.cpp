@@ -109,7 +109,7 @@ Result<Picture> read_png(const std::string& path) {
     png_image_free(&image);
     return Error{ErrorKind::kInput, path + ": the picture is too large"};
   }
-  Picture picture(int(image.width), int(image.height));
+  Picture picture = Picture::unfilled(int(image.width), int(image.height));
   if (!png_image_finish_read(&image, nullptr, picture.rgba.data(), 0, nullptr)) return fail();
   return picture;
 }

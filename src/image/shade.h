@@ -1,5 +1,5 @@
-// From facts to colours. Shading never changes a hit, and there is one function that colours one:
-// Shader::color, used for pictures, antialiasing and the window alike.
+// From facts to colours. Shading never changes a hit, and there is one arithmetic that colours one,
+// used for pictures and antialiasing alike: shade_lanes.cpp.
 //
 // Three styles: whittle's own studio; the paper's Blinn (Romeiro, Velho, de Figueiredo 2008,
 // algorithm 4); and OpenSCAD's look, reproduced to the 8-bit value.
@@ -13,18 +13,12 @@
 #include "image/colorscheme.h"
 #include "image/cut_faces.h"
 #include "image/picture.h"
-#include "image/pixel_rays.h"
+#include "image/shade_lanes.h"
 #include "model/instances.h"
 #include "trace/camera.h"
 #include "trace/frame.h"
 
 namespace whittle {
-
-enum class Style {
-  kStudio,    ///< soft lights fixed to the camera, computed in linear light
-  kBlinn,     ///< one positional light, Blinn highlight; values are display values, as in the paper
-  kOpenscad,  ///< what OpenSCAD's --render draws; it knows no color()
-};
 
 struct ShadeSettings {
   Style style = Style::kStudio;
@@ -38,12 +32,6 @@ struct ShadeSettings {
   /// kOpenscad: the primitive that is all of the solid, if it is one; it has a colour of its own.
   std::optional<uint32_t> lone_primitive;
 };
-
-/// kBlinn: display value = kBlinnAmbient * base + kBlinnDiffuse * base * max(n.l, 0) +
-/// kBlinnSpecular * max(n.h, 0)^16, the last only where n.l > 0. Chosen so that a white base that
-/// faces the light reaches 0.9, and clips only in the middle of its highlight.
-inline constexpr float kBlinnAmbient = 0.2f, kBlinnDiffuse = 0.7f, kBlinnSpecular = 0.3f;
-inline constexpr int kBlinnExponent = 16;
 
 /// The colours of surfaces without color(), and of the background, as a style has them.
 ColorScheme effective_scheme(const ShadeSettings& settings);
@@ -62,33 +50,23 @@ class Shader {
   Shader(const Camera& camera, std::span<const Appearance> appearances,
          const ShadeSettings& settings);
 
-  /// The colour of `hit` (or of the background) seen through picture position (px, py).
-  Vec3f color(const Hit& hit, float px, float py) const {
-    return hit.hit() ? surface(hit, px, py) : background(py);
-  }
-  Vec3f background(float py) const;
-  /// False if what is not hit stays transparent.
-  bool has_background() const { return has_background_; }
-  /// Writes the colour as four bytes.
-  void store(Vec3f color, float alpha, uint8_t* rgba) const;
+  /// Writes the pixels of row y, four bytes each. `seen` is scratch space.
+  void row(std::span<const Hit> hits, int y, SeenHits& seen, uint8_t* rgba) const;
+  /// The colours of hits, or of the background, seen through as many picture positions. Alpha is 1,
+  /// or 0 where nothing is hit and no background is wanted. `seen` is scratch space.
+  void samples(std::span<const Hit> hits, std::span<const PixelPosition> places, SeenHits& seen,
+               Colors& colors) const;
+  /// Writes colours as four bytes each.
+  void store(const Colors& colors, uint8_t* rgba) const;
 
  private:
-  Vec3f surface(const Hit& hit, float px, float py) const;
-  Vec3f studio(const Hit& hit, Vec3f base, float px, float py) const;
-  Vec3f blinn(const Hit& hit, Vec3f base, float px, float py) const;
-  Vec3f openscad(const Hit& hit, Vec3f base, float px, float py) const;
+  /// Picture position of hit i: place(i).
+  template <class Place>
+  void look(std::span<const Hit> hits, const Place& place, SeenHits& seen) const;
 
-  Style style_;
-  bool has_background_;
-  float inverse_height_;
   Camera camera_;
-  PixelRays rays_;
-  Vec3f light_from_eye_;     ///< kBlinn
-  Vec3f headlight_;          ///< kOpenscad: one of its two opposite directions
-  Vec3f key_, fill_, rim_;   ///< kStudio: unit, from the surface to the light
-  Vec3f top_, bottom_;       ///< background
-  std::vector<Vec3f> base_;  ///< by id
-  Vec3f material_, cut_;
+  ShadeParameters parameters_;
+  uint32_t material_, cut_;    ///< of parameters_.materials: without color()
   const CutFaces* cut_faces_;  ///< kOpenscad
 };
 

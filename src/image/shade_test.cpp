@@ -5,13 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
+#include "support/instruction_sets.h"
 #include "trace/view.h"
 
 namespace whittle {
 namespace {
 
-const Workers kWorkers(0);
+const Workers kAllWorkers(0);
 
 /// A camera as OpenSCAD's default view: rotation (55, 0, 25).
 Camera default_camera(int width = 4, int height = 4) {
@@ -25,13 +28,33 @@ Rgb8 at(const Picture& p, int x, int y) {
   return {p.at(x, y)[0], p.at(x, y)[1], p.at(x, y)[2]};
 }
 
-/// The colour of one hit in the middle of the picture.
+/// The colours of hits seen through those places, as four bytes each.
+std::vector<uint8_t> shade_samples_of(std::span<const Hit> hits,
+                                      std::span<const PixelPosition> places, const Camera& camera,
+                                      std::span<const Appearance> appearances,
+                                      const ShadeSettings& settings) {
+  const Shader shader(camera, appearances, settings);
+  SeenHits seen;
+  Colors colors;
+  shader.samples(hits, places, seen, colors);
+  std::vector<uint8_t> rgba(4 * hits.size());
+  shader.store(colors, rgba.data());
+  return rgba;
+}
+
+/// The colour of one hit seen through a place.
+Rgb8 shade_one(const Hit& hit, PixelPosition place, const Camera& camera,
+               std::span<const Appearance> appearances, const ShadeSettings& settings) {
+  const std::vector<uint8_t> rgba =
+      shade_samples_of({&hit, 1}, {&place, 1}, camera, appearances, settings);
+  return {rgba[0], rgba[1], rgba[2]};
+}
+
+/// And in the middle of the picture.
 Rgb8 shade_one(const Hit& hit, const Camera& camera, std::span<const Appearance> appearances,
                const ShadeSettings& settings) {
-  const Shader shader(camera, appearances, settings);
-  uint8_t rgba[4];
-  shader.store(shader.color(hit, float(camera.width) / 2, float(camera.height) / 2), 1, rgba);
-  return {rgba[0], rgba[1], rgba[2]};
+  const PixelPosition middle{float(camera.width) / 2, float(camera.height) / 2};
+  return shade_one(hit, middle, camera, appearances, settings);
 }
 
 /// Id 1: material; 2: cut; 3: coloured cut; 4: colour with a component unset.
@@ -90,7 +113,7 @@ TEST(Shade, ASchemeReplacesTheColorsInEveryStyle) {
   for (const Style style : kAllStyles) {
     ShadeSettings settings = styled(style);
     settings.scheme = find_color_scheme("Sunset");
-    const Picture p = shade(Frame(4, 4), default_camera(), {}, settings, kWorkers);
+    const Picture p = shade(Frame(4, 4), default_camera(), {}, settings, kAllWorkers);
     EXPECT_EQ(at(p, 1, 2), (Rgb8{0xAA, 0x44, 0x44}));
     EXPECT_EQ(p.at(1, 2)[3], 255);
   }
@@ -99,7 +122,7 @@ TEST(Shade, ASchemeReplacesTheColorsInEveryStyle) {
 TEST(Shade, ClearSkyRunsFromTopToBottom) {
   ShadeSettings settings = styled(Style::kOpenscad);
   settings.scheme = find_color_scheme("ClearSky");
-  const Picture p = shade(Frame(2, 400), default_camera(2, 400), {}, settings, kWorkers);
+  const Picture p = shade(Frame(2, 400), default_camera(2, 400), {}, settings, kAllWorkers);
   EXPECT_EQ(at(p, 0, 0), (Rgb8{0x87, 0xCE, 0xEB}));
   EXPECT_EQ(at(p, 1, 399), (Rgb8{0xC9, 0xE9, 0xF6}));
   EXPECT_EQ(at(p, 0, 199).r, (0x87 + 0xC9) / 2);
@@ -111,7 +134,7 @@ TEST(Shade, WithoutBackgroundWhatIsNotHitIsTransparent) {
   for (const Style style : kAllStyles) {
     ShadeSettings settings = styled(style);
     settings.background = false;
-    const Picture p = shade(frame, default_camera(2, 1), kAppearances, settings, kWorkers);
+    const Picture p = shade(frame, default_camera(2, 1), kAppearances, settings, kAllWorkers);
     EXPECT_EQ(p.at(0, 0)[3], 0);
     EXPECT_EQ(p.at(1, 0)[3], 255);
   }
@@ -153,12 +176,10 @@ RC_GTEST_PROP(Shade, BlinnIsThePapersFormula, ()) {
     settings.light = *options.target + Vec3{unit(), unit(), unit()} * 200;
   }
   const float px = 512 * float(std::fabs(unit())), py = 512 * float(std::fabs(unit()));
-  const Shader shader(camera, kAppearances, settings);
-  uint8_t rgba[4];
-  shader.store(shader.color(hit, px, py), 1, rgba);
   const Rgb8 expected = blinn_reference(camera, settings.light.value_or(camera.eye), hit,
                                         {1, 0, 0.4f}, double(px), double(py));
-  RC_ASSERT(distance({rgba[0], rgba[1], rgba[2]}, expected) <= 1);
+  const Rgb8 got = shade_one(hit, {px, py}, camera, kAppearances, settings);
+  RC_ASSERT(distance(got, expected) <= 1);
 }
 
 TEST(Shade, BlinnBehindTheLightIsAmbientAlone) {
@@ -200,28 +221,92 @@ TEST(Shade, StudioHonoursColors) {
             20);
 }
 
-TEST(Shade, ThePictureIsTheShadersColorOfEveryPixelWhateverTheThreads) {
-  Frame frame(61, 47);
+/// Hits of all kinds next to one another, and background.
+Frame confetti(int width, int height) {
+  Frame frame(width, height);
   uint32_t seed = 1;
   const auto unit = [&] {
     seed = seed * 1664525u + 1013904223u;
     return float(seed >> 8) / float(1 << 23) - 1;
   };
   for (Hit& h : frame.hits) {
-    if (unit() > 0) h = {30 + unit(), 1 + (seed >> 30), normalize(Vec3f{unit(), unit(), unit()})};
+    if (unit() > 0) h = {30 + unit(), 1 + (seed >> 29), normalize(Vec3f{unit(), unit(), unit()})};
   }
-  const Camera camera = default_camera(61, 47);
+  return frame;
+}
+
+/// The middles of all pixels.
+std::vector<PixelPosition> middles(const Frame& frame) {
+  std::vector<PixelPosition> places;
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) places.push_back({float(x) + 0.5f, float(y) + 0.5f});
+  }
+  return places;
+}
+
+/// All settings that change how colours are computed.
+std::vector<ShadeSettings> all_settings() {
+  std::vector<ShadeSettings> all;
   for (const Style style : kAllStyles) {
-    const Picture p = shade(frame, camera, kAppearances, styled(style), kWorkers);
-    const Shader shader(camera, kAppearances, styled(style));
-    for (int y = 0; y < frame.height; ++y) {
-      for (int x = 0; x < frame.width; ++x) {
-        uint8_t rgba[4];
-        shader.store(shader.color(frame.at(x, y), float(x) + 0.5f, float(y) + 0.5f), 1, rgba);
-        ASSERT_TRUE(std::equal(rgba, rgba + 4, p.at(x, y))) << x << " " << y;
-      }
+    for (const bool background : {true, false}) {
+      all.push_back(styled(style));
+      all.back().background = background;
     }
-    EXPECT_EQ(shade(frame, camera, kAppearances, styled(style), Workers(1)).rgba, p.rgba);
+  }
+  return all;
+}
+
+TEST(Shade, ThePictureIsTheSamplesInThePixelsMiddlesWhateverTheThreads) {
+  for (const int width : {1, 5, 16, 61}) {
+    const Frame frame = confetti(width, 47);
+    const Camera camera = default_camera(width, 47);
+    const std::vector<PixelPosition> places = middles(frame);
+    for (const ShadeSettings& settings : all_settings()) {
+      const Picture p = shade(frame, camera, kAppearances, settings, kWorkers);
+      const std::vector<uint8_t> samples =
+          shade_samples_of(frame.hits, places, camera, kAppearances, settings);
+      for (size_t i = 0; i < frame.hits.size(); ++i) {
+        // What is not there has no colour; its bytes are not looked at.
+        const size_t from = settings.background || frame.hits[i].hit() ? 0 : 3;
+        ASSERT_TRUE(
+            std::equal(&p.rgba[4 * i + from], &p.rgba[4 * i + 3] + 1, &samples[4 * i + from]))
+            << width << " " << i;
+      }
+      EXPECT_EQ(shade(frame, camera, kAppearances, settings, Workers(1)).rgba, p.rgba);
+    }
+  }
+}
+
+TEST(Shade, EveryInstructionSetGivesTheSameBytes) {
+  const Frame frame = confetti(67, 40);
+  for (const bool orthographic : {false, true}) {
+    Camera camera = default_camera(67, 40);
+    camera.orthographic = orthographic;
+    for (const ShadeSettings& settings : all_settings()) {
+      const Picture expected = shade(frame, camera, kAppearances, settings, kWorkers);
+      const std::vector<uint8_t> samples =
+          shade_samples_of(frame.hits, middles(frame), camera, kAppearances, settings);
+      for_every_instruction_set([&] {
+        EXPECT_EQ(shade(frame, camera, kAppearances, settings, kWorkers).rgba, expected.rgba);
+        EXPECT_EQ(shade_samples_of(frame.hits, middles(frame), camera, kAppearances, settings),
+                  samples);
+      });
+    }
+  }
+}
+
+TEST(Shade, WhatNoByteHoldsIsClamped) {
+  Colors colors;
+  const float all[] = {
+      -1, 0, 1, 7, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()};
+  const int bytes[] = {0, 0, 255, 255, 255, 0};
+  colors.resize(std::size(all));
+  for (size_t i = 0; i < std::size(all); ++i)
+    colors.r[i] = colors.g[i] = colors.b[i] = colors.alpha[i] = all[i];
+  for (const Style style : kAllStyles) {
+    std::vector<uint8_t> rgba(4 * std::size(all));
+    Shader(default_camera(), {}, styled(style)).store(colors, rgba.data());
+    for (size_t i = 0; i < rgba.size(); ++i) EXPECT_EQ(rgba[i], bytes[i / 4]) << i;
   }
 }
 

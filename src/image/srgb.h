@@ -1,4 +1,4 @@
-// The sRGB transfer curve (IEC 61966-2-1), by tables: no pow a pixel.
+// The sRGB transfer curve (IEC 61966-2-1), and a table of it: no pow a pixel.
 #pragma once
 
 #include <array>
@@ -12,23 +12,13 @@ float linear_from_srgb(float v);
 /// sRGB value 0..1 of linear light 0..1.
 float srgb_from_linear(float v);
 
-/// Encodes linear light as 8-bit sRGB. Off by at most one level, and only where the exact value
-/// lies within a fifth of a level of the border between two.
-class SrgbEncoder {
- public:
-  SrgbEncoder();
-  /// Values outside 0..1 are clamped; NaN is 0.
-  uint8_t operator()(float linear) const {
-    if (!(linear > 0)) return 0;
-    return linear >= 1 ? uint8_t(255) : table_[std::size_t(linear * kSteps + 0.5f)];
-  }
+inline constexpr int kSrgbSteps = 1 << 13;  ///< 12.92 * 255 / kSrgbSteps = 0.4 levels at black
 
- private:
-  static constexpr int kSteps = 1 << 13;  ///< 12.92 * 255 / kSteps = 0.4 levels a step at black
-  std::array<uint8_t, kSteps + 1> table_;
-};
-
-/// The one encoder; it is made at the first call.
-const SrgbEncoder& srgb_encoder();
+/// 8-bit sRGB of linear light in steps of 1 / kSrgbSteps: looked up at the nearest step, it is off
+/// by at most one level, and only where the exact value lies within a fifth of a level of the
+/// border between two. Behind the last are zeros, so that each byte can be read as four. Made at
+/// the first call.
+using SrgbTable = std::array<uint8_t, kSrgbSteps + 1 + 3>;
+const SrgbTable& srgb_table();
 
 }  // namespace whittle

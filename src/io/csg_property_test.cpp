@@ -21,7 +21,7 @@ using Random = std::mt19937_64;
 int pick(Random& random, int below) {
   return static_cast<int>(random() % static_cast<unsigned>(below));
 }
-double number(Random& random) {
+double random_number(Random& random) {
   return (pick(random, 41) - 20) / 4.0;
 }
 
@@ -59,8 +59,8 @@ Written random_tree(Random& random, int depth, int fewest = 0) {
                                      "multmatrix([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]])",
                                      "color([-1, -1, -1, -1])"};
   tree.spelling = kUnions[pick(random, 5)];
-  tree.vector = {number(random), number(random), number(random)};
-  tree.scalar = number(random);
+  tree.vector = {random_number(random), random_number(random), random_number(random)};
+  tree.scalar = random_number(random);
   if (!tree.is_primitive()) {
     for (int n = fewest + pick(random, 4 - fewest); n > 0; --n) {
       tree.children.push_back(random_tree(random, depth - 1, fewest));
@@ -246,7 +246,8 @@ TEST(CsgProperties, TheModelIsTheSolidThatWasWritten) {
 
     for (int i = 0; i < 50; ++i) {
       // Off the grid of the faces, so that no rounding can decide.
-      const Vec3 p = Vec3{number(random), number(random), number(random)} + Vec3{0.01, 0.02, 0.03};
+      const Vec3 p = Vec3{random_number(random), random_number(random), random_number(random)} +
+                     Vec3{0.01, 0.02, 0.03};
       RC_ASSERT(contains(model, 0, p) == contains(file, p));
     }
   }));

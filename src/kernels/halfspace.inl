@@ -102,7 +102,8 @@ FN Real along_root(AlongRay f, Bool rising) {
 }
 
 // Bounds of a sphere's f over the box with centre m and half size h: exact (from the box's nearest
-// and farthest point), widened as in quadric_range.
+// and farthest point), widened by `slack` times the magnitudes of the terms, which covers the rounding
+// of this evaluation and of a ray's.
 FN Vec2 sphere_range(Real scale, Real c, Vec3 m, Vec3 h, Real slack) {
   Vec3 a = make_vec3(fabs_(m.x), fabs_(m.y), fabs_(m.z));
   Vec3 far_point = make_vec3(a.x + h.x, a.y + h.y, a.z + h.z);
@@ -111,37 +112,4 @@ FN Vec2 sphere_range(Real scale, Real c, Vec3 m, Vec3 h, Real slack) {
   Real high = scale * dot3(far_point, far_point);
   Real w = slack * (high + fabs_(c));
   return make_vec2(scale * dot3(near_point, near_point) + c - w, high + c + w);
-}
-
-// The range of one term g x + a x^2 over -h <= x <= h: x is the low end, y the high end.
-FN Vec2 axis_range(Real g, Real a, Real h) {
-  Real low_end = a * h * h - g * h;
-  Real high_end = a * h * h + g * h;
-  // The vertex counts if it lies strictly inside.
-  Bool inner = fabs_(g) < K(2) * fabs_(a) * h;
-  Real vertex = select(inner, (K(0) - g * g) / (K(4) * select(inner, a, K(1))), low_end);
-  return make_vec2(pmin(pmin(low_end, high_end), vertex), pmax(pmax(low_end, high_end), vertex));
-}
-
-// Bounds of f over the box with centre m (relative to the half-space's centre) and half size h:
-// the centred form, exact for quadrics without mixed terms (planes, spheres, axis-aligned cylinders
-// and cones), else widened by the mixed terms' extremes. Widened by `slack` times the sum of the
-// terms' magnitudes, which covers the rounding of this evaluation and of a ray's.
-FN Vec2 quadric_range(Quadric f, Vec3 m, Vec3 h, Real slack) {
-  Real value = quadric_value(f, m);
-  Vec3 g = quadric_half_gradient(f, m);
-  Vec2 x = axis_range(K(2) * g.x, f.diag.x, h.x);
-  Vec2 y = axis_range(K(2) * g.y, f.diag.y, h.y);
-  Vec2 z = axis_range(K(2) * g.z, f.diag.z, h.z);
-  Real mixed = K(2) * (fabs_(f.off.x) * h.y * h.z + fabs_(f.off.y) * h.x * h.z +
-                       fabs_(f.off.z) * h.x * h.y);
-  Vec3 r = make_vec3(fabs_(m.x) + h.x, fabs_(m.y) + h.y, fabs_(m.z) + h.z);
-  Real magnitude = fabs_(f.diag.x) * r.x * r.x + fabs_(f.diag.y) * r.y * r.y +
-                   fabs_(f.diag.z) * r.z * r.z +
-                   K(2) * (fabs_(f.off.x) * r.y * r.z + fabs_(f.off.y) * r.x * r.z +
-                           fabs_(f.off.z) * r.x * r.y + fabs_(f.b.x) * r.x +
-                           fabs_(f.b.y) * r.y + fabs_(f.b.z) * r.z) +
-                   fabs_(f.c);
-  Real w = mixed + slack * magnitude;
-  return make_vec2(value + x.x + y.x + z.x - w, value + x.y + y.y + z.y + w);
 }

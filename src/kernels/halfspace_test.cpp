@@ -64,38 +64,13 @@ TEST(QuadraticRoot, OfALineIsItsOnlyOne) {
   }
 }
 
-TEST(Quadric, RangeHoldsEveryValueInTheBox) {
-  Numbers numbers(2);
-  for (int i = 0; i < 50000; ++i) {
-    const K::Quadric f = numbers.quadric();
-    const Vec3 m = numbers.vec(), h = abs(numbers.vec());
-    const K::Vec2 range = K::quadric_range(f, m, h, 1e-14);
-    for (int j = 0; j < 4; ++j) {
-      // Weights in [-1, 1], corners preferred: the sample cannot leave the box by more than
-      // rounding.
-      const auto weight = [&] {
-        return numbers.engine() % 2 ? numbers.uniform(-1, 1) : numbers.engine() % 2 ? 1.0 : -1.0;
-      };
-      const Vec3 p{m.x + h.x * weight(), m.y + h.y * weight(), m.z + h.z * weight()};
-      const double value = K::quadric_value(f, p);
-      ASSERT_LE(range.x, value);
-      ASSERT_GE(range.y, value);
-    }
-  }
-}
-
-TEST(Quadric, RangeOfASphereIsExactAndHoldsEveryValue) {
+TEST(Quadric, RangeOfASphereHoldsEveryValue) {
   Numbers numbers(5);
   for (int i = 0; i < 50000; ++i) {
     const double scale = std::fabs(numbers.any()), c = -std::fabs(numbers.any());
     const K::Quadric f{{scale, scale, scale}, {}, {}, c};
     const Vec3 m = numbers.vec(), h = abs(numbers.vec());
-    const K::Vec2 range = K::sphere_range(scale, c, m, h, 1e-14),
-                  general = K::quadric_range(f, m, h, 1e-14);
-    const Vec3 reach = abs(m) + h;
-    const double rounding = 1e-12 * (scale * dot(reach, reach) - c) + 1e-280;
-    ASSERT_GE(range.x, general.x - rounding);
-    ASSERT_LE(range.y, general.y + rounding);
+    const K::Vec2 range = K::sphere_range(scale, c, m, h, 1e-14);
     for (int j = 0; j < 4; ++j) {
       const auto weight = [&] { return numbers.engine() % 2 ? numbers.uniform(-1, 1) : 1.0; };
       const Vec3 p{m.x + h.x * weight(), m.y + h.y * weight(), m.z + h.z * weight()};
@@ -106,8 +81,7 @@ TEST(Quadric, RangeOfASphereIsExactAndHoldsEveryValue) {
 }
 
 TEST(Quadric, RangeIsTightForSpheres) {
-  const K::Quadric sphere{{1, 1, 1}, {}, {}, -1};
-  const K::Vec2 range = K::quadric_range(sphere, {0.25, 0, 0}, {0.5, 0.5, 0.5}, 0);
+  const K::Vec2 range = K::sphere_range(1, -1, {0.25, 0, 0}, {0.5, 0.5, 0.5}, 0);
   EXPECT_DOUBLE_EQ(range.x, -1);
   EXPECT_DOUBLE_EQ(range.y, 0.75 * 0.75 + 0.25 + 0.25 - 1);
 }

@@ -7,9 +7,9 @@
 #pragma once
 
 #include <span>
-#include <unordered_map>
 #include <vector>
 
+#include "lower/point_index.h"
 #include "lower/scene.h"
 
 namespace whittle {
@@ -26,8 +26,8 @@ struct Reach {
 
 class HalfSpaceTable {
  public:
-  /// `radius`: half the size of the region.
-  explicit HalfSpaceTable(double radius) : radius_(radius) {}
+  /// `radius`: half the size of the region; `tolerance`: the model's, which no Reach's is above.
+  HalfSpaceTable(double radius, double tolerance);
 
   /// The literal of `h`, a surface of the primitive with this reach.
   Literal add(const HalfSpace& h, const Reach& reach);
@@ -35,29 +35,32 @@ class HalfSpaceTable {
   std::vector<HalfSpace> take() { return std::move(half_spaces_); }
 
  private:
-  /// Where the surface stands in a space in which equal ones are neighbours.
-  struct Fingerprint {
-    double value[3];
-    double slack;  ///< how far an equal surface's can be
-  };
-  Fingerprint fingerprint(const HalfSpace& h, const Reach& reach) const;
   bool same_plane(uint32_t known, const HalfSpace& h, const Reach& reach, bool complement) const;
   bool same_curve(uint32_t known, const Reach& reach) const;
-  bool same(uint32_t known, const HalfSpace& h, const Reach& reach, bool complement) const;
-  /// The first number of an equal half-space (or of one whose complement is), or kNone.
-  uint32_t find(const HalfSpace& h, const Reach& reach, const Fingerprint& at,
-                bool complement) const;
 
-  struct Known {
-    double tolerance;
-    bool is_ball;
+  /// The first number of an equal half-space (or of one whose complement is), or kNone.
+  uint32_t find_plane(const HalfSpace& h, const Reach& reach, bool complement) const;
+  uint32_t find_curve(const HalfSpace& h, const Reach& reach) const;
+  void add_plane(const HalfSpace& h, uint32_t number);
+
+  /// Where the surface stands in a space in which equal ones are neighbours.
+  struct Fingerprint {
+    PointIndex::Point point;
+    double slack;  ///< how far an equal surface's can be
   };
+  Fingerprint wall_fingerprint(const HalfSpace& h, const Reach& reach) const;
+  Fingerprint ball_fingerprint(const HalfSpace& h, const Reach& reach) const;
+  Fingerprint fingerprint(const HalfSpace& h, const Reach& reach) const;
 
   double radius_;
+  double step_;  ///< of planes' offsets in their index
   std::vector<HalfSpace> half_spaces_;
-  std::vector<Known> known_;                     ///< what is compared besides, one a half-space
-  std::vector<uint32_t> next_;                   ///< chains of half-spaces in one bucket
-  std::unordered_map<uint64_t, uint32_t> head_;  ///< bucket -> first of its chain
+  std::vector<double> tolerances_;  ///< one a half-space
+  PointIndex balls_, walls_;        ///< by fingerprint
+  /// Planes in groups that have one normal but for rounding, and by group and distance from the
+  /// origin.
+  std::vector<Vec3> normals_;
+  PointIndex groups_, planes_;
 };
 
 }  // namespace whittle

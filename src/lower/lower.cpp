@@ -147,10 +147,14 @@ Result<Scene> lower(const Model& model) {
   scene.region = {region.lo - scene.origin, region.hi - scene.origin};
 
   const Affine local_from_world = translation(-scene.origin);
-  HalfSpaceTable table(max_component(scene.region.size()) / 2);
+  HalfSpaceTable table(max_component(scene.region.size()) / 2, scene.tolerance);
   std::vector<uint32_t> unit_of_node(model.nodes.size(), 0);
   LoweredPrimitive lowered;
-  for (const Instance& instance : instances(model)) {
+  scene.units.reserve(model.primitives.size());
+  scene.faces.reserve(model.primitives.size());
+  InstanceWalk walk(model);
+  while (const Instance* next = walk.next()) {
+    const Instance& instance = *next;
     const Primitive& primitive = model.primitives[instance.primitive];
     Unit unit;
     unit.id = primitive.id;
@@ -166,7 +170,7 @@ Result<Scene> lower(const Model& model) {
     for (const HalfSpace& half_space : lowered.half_spaces)
       scene.faces.push_back({table.add(half_space, reach), number});
     unit.face_count = uint32_t(scene.faces.size()) - unit.first_face;
-    if (unit.face_count > 1)
+    if (unit.face_count > 0)
       unit.outer =
           grown(transform(local_from_world, instance_box(model, instance)), 10 * tolerance);
     if (unit.face_count >= kManyFaces) {

@@ -77,7 +77,7 @@ TEST(Lower, APrimitiveIsNeverEatenByTheTolerance) {
 
 TEST(HalfSpaceTable, NearlyEqualPlanesDoNotChain) {
   const double tolerance = 1e-6;
-  HalfSpaceTable table(1);
+  HalfSpaceTable table(1, 1e-6);
   const Reach reach{{}, 1, 1, tolerance, {}, false};
   for (int i = 0; i < 100; ++i)
     table.add({{0, 0, i * 0.75 * tolerance}, {{}, {}, {0, 0, 0.5}, 0}, SurfaceKind::kPlane}, reach);
@@ -88,7 +88,7 @@ TEST(HalfSpaceTable, NearlyEqualPlanesDoNotChain) {
 TEST(HalfSpaceTable, FindsEqualsAcrossBucketBorders) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> unit(-1, 1);
-  HalfSpaceTable table(1);
+  HalfSpaceTable table(1, 1e-6);
   for (int i = 0; i < 5000; ++i) {
     const HalfSpace h{{unit(random), unit(random), unit(random)},
                       {{}, {}, normalize(Vec3{unit(random), unit(random), unit(random)}) * 0.5, 0},

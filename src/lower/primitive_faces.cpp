@@ -58,8 +58,8 @@ struct Builder {
   }
 
   void curved(const Shape& shape) {
-    out.extent = extent(shape, local_from_object);
     out.outline = outline(shape);
+    out.extent = curved_extent(shape, out.outline, local_from_object);
     for (Vec3& p : out.outline) p = local_from_object.point(p);
   }
 

@@ -1,5 +1,6 @@
 #include "model/extent.h"
 
+#include <array>
 #include <cmath>
 
 #include "model/facets.h"
@@ -10,13 +11,22 @@ namespace {
 
 constexpr Extent kUnbounded = {{}, kInfinity, kInfinity};
 
+constexpr size_t kSpherePoints = 26;
+
 std::vector<Vec3> sphere_outline(double r) {
+  static const std::array<Vec3, kSpherePoints> directions = [] {
+    std::array<Vec3, kSpherePoints> all;
+    size_t count = 0;
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z)
+          if (x != 0 || y != 0 || z != 0)
+            all[count++] = normalize(Vec3{double(x), double(y), double(z)});
+    return all;
+  }();
   std::vector<Vec3> points;
-  for (int x = -1; x <= 1; ++x)
-    for (int y = -1; y <= 1; ++y)
-      for (int z = -1; z <= 1; ++z)
-        if (x != 0 || y != 0 || z != 0)
-          points.push_back(normalize(Vec3{double(x), double(y), double(z)}) * r);
+  points.reserve(kSpherePoints);
+  for (const Vec3& d : directions) points.push_back(d * r);
   return points;
 }
 
@@ -70,7 +80,11 @@ Extent flat_extent(std::span<const Vec3> outline, std::span<const Plane> planes,
 
 Extent extent(const Shape& shape, const Affine& map) {
   const std::vector<Vec3> points = outline(shape);
-  if (is_flat(shape)) return flat_extent(points, facet_planes(shape), map);
+  return is_flat(shape) ? flat_extent(points, facet_planes(shape), map)
+                        : curved_extent(shape, points, map);
+}
+
+Extent curved_extent(const Shape& shape, std::span<const Vec3> points, const Affine& map) {
   const Affine back = inverse(map);
   const Vec3 middle = middle_of(points);
   const double radius = reach(points, middle, map);

@@ -27,6 +27,9 @@ std::vector<Vec3> outline(const Shape& shape);
 /// Precondition: the shape is not empty and the map not singular.
 Extent extent(const Shape& shape, const Affine& map);
 
+/// The same for a curved shape whose outline (own coordinates) is at hand.
+Extent curved_extent(const Shape& shape, std::span<const Vec3> outline, const Affine& map);
+
 /// The same for a flat shape whose outline and facet planes (own coordinates) are at hand.
 Extent flat_extent(std::span<const Vec3> outline, std::span<const Plane> planes, const Affine& map);
 

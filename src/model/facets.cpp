@@ -6,6 +6,7 @@
 
 #include "base/box.h"
 #include "base/result.h"
+#include "model/corner_tree.h"
 
 namespace whittle {
 
@@ -225,13 +226,22 @@ std::vector<Box> facet_boxes(const Shape& shape, const Affine& map) {
     }
     return boxes;
   }
-  constexpr size_t kMostTests = 4'000'000;
-  if (planes.size() * vertices.size() > kMostTests) return {};
   // A facet's corners are the vertices on its plane, to the precision of text.
   const double slack = 2e-5 * whole.diagonal();
-  for (size_t f = 0; f < planes.size(); ++f)
-    for (size_t v = 0; v < vertices.size(); ++v)
-      if (planes[f].d - dot(planes[f].n, vertices[v]) <= slack) add(f, v);
+  std::vector<CornerTree::Corner> corners;
+  corners.reserve(vertices.size());
+  for (size_t v = 0; v < vertices.size(); ++v)
+    corners.push_back({vertices[v], vertices[v] - whole.center(), uint32_t(v)});
+  const CornerTree tree(std::move(corners));
+  for (size_t f = 0; f < planes.size(); ++f) {
+    const Plane& plane = planes[f];
+    tree.search(
+        plane.n, whole.center(),
+        [&](double most_height, double) { return plane.d - most_height <= slack; },
+        [&](const CornerTree::Corner& corner) {
+          if (plane.d - dot(plane.n, corner.place) <= slack) add(f, corner.number);
+        });
+  }
   return boxes;
 }
 

@@ -39,8 +39,7 @@ double sin_degrees(double degrees);
 /// outward planes in the shape's own coordinates. Precondition: not empty, and flat-faced.
 std::vector<Plane> facet_planes(const Shape& shape);
 
-/// The box of every facet under a map, in the order of facet_planes. Empty where it would take long
-/// to find them: for polyhedra of thousands of faces.
+/// The box of every facet under a map, in the order of facet_planes.
 std::vector<Box> facet_boxes(const Shape& shape, const Affine& map);
 
 /// The vertices of the same solids, for bounds.

@@ -105,32 +105,34 @@ struct BoxFold {
 
 }  // namespace
 
-std::vector<Instance> instances(const Model& model) {
-  struct Scope {
-    uint32_t end;
-    Affine world_from_parent;
-  };
-  std::vector<Scope> scopes;
-  std::vector<Instance> found;
-  found.reserve(model.primitives.size());
-  for (uint32_t i = 0; i < model.nodes.size();) {
-    const Node& node = model.nodes[i];
+const Instance* InstanceWalk::next() {
+  while (at_ < model_.nodes.size()) {
+    const uint32_t i = at_++;
+    const Node& node = model_.nodes[i];
     if (node.background) {
-      i = node.end;
+      at_ = node.end;
       continue;
     }
-    while (!scopes.empty() && scopes.back().end <= i) scopes.pop_back();
-    const Affine world_from_parent = scopes.empty() ? Affine{} : scopes.back().world_from_parent;
+    while (!scopes_.empty() && scopes_.back().end <= i) scopes_.pop_back();
+    const Affine world_from_parent = scopes_.empty() ? Affine{} : scopes_.back().world_from_parent;
     if (node.kind == NodeKind::kTransform) {
-      scopes.push_back({node.end, world_from_parent * model.transforms[node.payload]});
+      scopes_.push_back({node.end, world_from_parent * model_.transforms[node.payload]});
     } else if (node.kind == NodeKind::kPrimitive) {
-      const Shape& shape = model.primitives[node.payload].shape;
+      const Shape& shape = model_.primitives[node.payload].shape;
       const bool empty = is_empty(shape) || !world_from_parent.is_finite() ||
                          is_singular(world_from_parent) || overflows(shape, world_from_parent);
-      found.push_back({i, node.payload, empty, world_from_parent});
+      instance_ = {i, node.payload, empty, world_from_parent};
+      return &instance_;
     }
-    ++i;
   }
+  return nullptr;
+}
+
+std::vector<Instance> instances(const Model& model) {
+  std::vector<Instance> found;
+  found.reserve(model.primitives.size());
+  InstanceWalk walk(model);
+  while (const Instance* instance = walk.next()) found.push_back(*instance);
   return found;
 }
 
@@ -177,8 +179,7 @@ std::optional<uint32_t> lone_primitive(const Model& model) {
     bool combined = false;   ///< it is the last operand's work, or ours
   };
   std::vector<Open> open{{}};
-  const std::vector<Instance> all = instances(model);
-  size_t next_instance = 0;
+  InstanceWalk walk(model);
   const auto give = [&](uint32_t primitive, bool combined) {
     Open& parent = open.back();
     const NodeKind kind = model.nodes[parent.node].kind;
@@ -203,7 +204,7 @@ std::optional<uint32_t> lone_primitive(const Model& model) {
       continue;
     }
     if (node.kind == NodeKind::kPrimitive) {
-      const Instance& instance = all[next_instance++];
+      const Instance& instance = *walk.next();
       give(instance.empty ? 0 : model.primitives[instance.primitive].id, false);
     } else {
       open.push_back({.node = i});
@@ -222,7 +223,6 @@ Box instance_box(const Model& model, const Instance& instance) {
 }
 
 Bounds bounds(const Model& model) {
-  const std::vector<Instance> all = instances(model);
   std::vector<BoxFold> open;
   Box box;
   const auto give_to_parent = [&](const Box& operand) {
@@ -246,7 +246,7 @@ Bounds bounds(const Model& model) {
       give_to_parent(done);
     }
   };
-  size_t next_instance = 0;
+  InstanceWalk walk(model);
   for (uint32_t i = 0; i < model.nodes.size();) {
     const Node& node = model.nodes[i];
     close_before(i);
@@ -254,7 +254,7 @@ Bounds bounds(const Model& model) {
       i = node.end;
     } else {
       if (node.kind == NodeKind::kPrimitive)
-        give_to_parent(instance_box(model, all[next_instance++]));
+        give_to_parent(instance_box(model, *walk.next()));
       else
         open.push_back({.node = i, .operands = 0, .box = {}});
       ++i;
@@ -265,14 +265,15 @@ Bounds bounds(const Model& model) {
   if (box.is_finite()) return {.box = box, .bounded = true};
 
   Box reach;
-  for (const Instance& instance : all) {
-    if (instance.empty) continue;
-    const Shape& shape = model.primitives[instance.primitive].shape;
+  InstanceWalk again(model);
+  while (const Instance* instance = again.next()) {
+    if (instance->empty) continue;
+    const Shape& shape = model.primitives[instance->primitive].shape;
     if (const auto* s = std::get_if<Halfspace>(&shape)) {
-      const Plane plane = world_plane(*s, instance.world_from_object);
+      const Plane plane = world_plane(*s, instance->world_from_object);
       reach.include(plane.n * plane.d);
     } else {
-      reach = unite(reach, instance_box(model, instance));
+      reach = unite(reach, instance_box(model, *instance));
     }
   }
   return {.box = reach, .bounded = false};

@@ -19,7 +19,27 @@ struct Instance {
   Affine world_from_object;
 };
 
-/// The primitives of the solid in file order; those under `%` are left out.
+/// Goes through the primitives of the solid in file order; those under `%` are left out. The model
+/// must outlive it.
+class InstanceWalk {
+ public:
+  explicit InstanceWalk(const Model& model) : model_(model) {}
+
+  /// The next one; null after the last. What it points to changes with the next call.
+  const Instance* next();
+
+ private:
+  struct Scope {
+    uint32_t end;
+    Affine world_from_parent;
+  };
+  const Model& model_;
+  std::vector<Scope> scopes_;
+  uint32_t at_ = 0;  ///< a node
+  Instance instance_;
+};
+
+/// All of them.
 std::vector<Instance> instances(const Model& model);
 
 /// How the surface of a primitive is painted.

@@ -10,7 +10,7 @@
 namespace whittle {
 namespace {
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Writes the preorder array: open(), children, close().
 class Builder {
@@ -102,7 +102,7 @@ TEST(Instances, FlattenedAndNonFiniteAreEmpty) {
                           .transform(scaling({1, 1, 0}))
                           .add(unit_cube())
                           .close()
-                          .transform(shift(kInf, 0, 0))
+                          .transform(shift(kInfinite, 0, 0))
                           .add(unit_cube())
                           .close()
                           .transform(scaling({1e-6, 1, 1}))

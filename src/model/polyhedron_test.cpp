@@ -38,7 +38,7 @@ void reverse_faces(Polyhedron& p) {
   for (auto& f : p.faces) std::ranges::reverse(f);
 }
 
-double outside(const std::vector<Plane>& planes, Vec3 p) {
+double farthest_outside(const std::vector<Plane>& planes, Vec3 p) {
   double most = -std::numeric_limits<double>::infinity();
   for (const Plane& plane : planes) most = std::max(most, dot(plane.n, p) - plane.d);
   return most;
@@ -54,16 +54,16 @@ TEST(BuildPlanes, BoxGetsItsSixExactPlanes) {
   Polyhedron p = box({1, 2, 3});
   EXPECT_EQ(build_planes(p), std::nullopt);
   EXPECT_EQ(p.planes.size(), 6u);
-  EXPECT_EQ(outside(p.planes, {0.5, 1, 1.5}), -0.5);
-  EXPECT_EQ(outside(p.planes, {1, 2, 3}), 0);
-  EXPECT_EQ(outside(p.planes, {0.5, 1, 3.25}), 0.25);
+  EXPECT_EQ(farthest_outside(p.planes, {0.5, 1, 1.5}), -0.5);
+  EXPECT_EQ(farthest_outside(p.planes, {1, 2, 3}), 0);
+  EXPECT_EQ(farthest_outside(p.planes, {0.5, 1, 3.25}), 0.25);
 }
 
 TEST(BuildPlanes, InsideOutIsTurned) {
   Polyhedron p = box({1, 2, 3});
   reverse_faces(p);
   EXPECT_EQ(build_planes(p), std::nullopt);
-  EXPECT_EQ(outside(p.planes, {0.5, 1, 1.5}), -0.5);
+  EXPECT_EQ(farthest_outside(p.planes, {0.5, 1, 1.5}), -0.5);
 }
 
 TEST(BuildPlanes, TrianglesOfOneFaceAreOnePlane) {
@@ -166,10 +166,10 @@ TEST(BuildPlanes, SixDigitCornersAreAccepted) {
     const auto reason = build_planes(p);
     RC_ASSERT(reason.value_or("") == "");
     for (const Vec3 q : p.points) {
-      RC_ASSERT(outside(p.planes, q) <= 0);
-      RC_ASSERT(outside(p.planes, q) > -1e-4 * r);
+      RC_ASSERT(farthest_outside(p.planes, q) <= 0);
+      RC_ASSERT(farthest_outside(p.planes, q) > -1e-4 * r);
     }
-    RC_ASSERT(outside(p.planes, shift + Vec3{1.01, 0, 0} * r) > 0);
+    RC_ASSERT(farthest_outside(p.planes, shift + Vec3{1.01, 0, 0} * r) > 0);
   }));
 }
 
@@ -219,8 +219,8 @@ TEST(BuildPlanes, AHundredThousandFacesAreNoTrouble) {
   Polyhedron p = turned(ball_profile(159), 318);
   ASSERT_GT(p.faces.size(), 100'000u);
   ASSERT_EQ(build_planes(p), std::nullopt);
-  EXPECT_NEAR(outside(p.planes, {0, 0, 0}), -10, 1e-2);
-  EXPECT_GT(outside(p.planes, {10.01, 0, 0}), 0);
+  EXPECT_NEAR(farthest_outside(p.planes, {0, 0, 0}), -10, 1e-2);
+  EXPECT_GT(farthest_outside(p.planes, {10.01, 0, 0}), 0);
 }
 
 TEST(BuildPlanes, ADentInALargeMeshIsFoundWhereverItIs) {
@@ -267,8 +267,8 @@ TEST(BuildPlanes, SliverOfUncertainDirectionDoesNotCut) {
   // degrees; taken at its word it would cut seven units off the other side.
   Polyhedron p = box_with_sliver(9.9993);
   EXPECT_EQ(build_planes(p), std::nullopt);
-  for (const Vec3 corner : p.points) EXPECT_LE(outside(p.planes, corner), 0);
-  EXPECT_NEAR(outside(p.planes, {50, 50, 10.5}), 0.5, 2e-3);
+  for (const Vec3 corner : p.points) EXPECT_LE(farthest_outside(p.planes, corner), 0);
+  EXPECT_NEAR(farthest_outside(p.planes, {50, 50, 10.5}), 0.5, 2e-3);
 }
 
 }  // namespace

@@ -50,7 +50,9 @@ inline constexpr uint32_t kAnswerTrue = UINT32_MAX, kAnswerFalse = UINT32_MAX - 
 
 /// The head of a leaf's block of memory; literals, steps and tokens stand behind it in a row.
 struct Leaf {
-  uint64_t table = 0;  ///< kTable: bit s is the solid where bit i of s says "inside half-space i"
+  /// Up to kTableLiterals literals, whatever the kind: bit s is the solid where bit i of s says
+  /// "inside half-space i".
+  uint64_t table = 0;
   uint32_t literal_count = 0;
   uint32_t step_count = 0;   ///< kProgram
   uint32_t token_count = 0;  ///< the leaf's formula, kept if an owner is shared

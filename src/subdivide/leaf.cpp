@@ -138,7 +138,7 @@ CellLink LeafAnalysis::write(Arena& arena) {
   const bool shared = std::any_of(half_spaces_.begin(), half_spaces_.end(),
                                   [](const Used& used) { return used.owner == 0; });
   Leaf leaf;
-  leaf.table = kind == CellKind::kTable ? table_ : 0;
+  leaf.table = has_table_ ? table_ : 0;
   leaf.literal_count = size();
   leaf.step_count = uint32_t(steps_.size());
   leaf.token_count = shared ? uint32_t(formula_.size()) : 0;

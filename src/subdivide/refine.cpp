@@ -1,8 +1,11 @@
 #include "subdivide/refine.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 namespace whittle {
 namespace {
@@ -10,10 +13,22 @@ namespace {
 /// Formulas that would have no more literals than this get all their primitives expanded.
 constexpr uint32_t kExpandAll = 64;
 
+/// A cell of at least so many operands is split into parts of about kWantedOperands each at once.
+constexpr size_t kWide = 4096, kWantedOperands = 128;
+constexpr int kMostSplitsAtOnce = 12;
+
 /// A cell whose formula has not become shorter, in itself and in its sibling, over this many splits
 /// in a row is a corner or an edge where many surfaces meet: no split will part them.
 uint32_t stall_limit(uint32_t literals) {
   return std::max(6u, literals);
+}
+
+/// Whether splitting a cell of so many literals saves more than it takes, all counted in visits of
+/// a node by a ray. Each ray saves a part of the literals that it would look at, and makes a visit
+/// and a bit more; the split itself takes so much for each literal of the formula.
+bool pays_off(uint32_t literals, double rays) {
+  constexpr double kSavedEach = 0.32, kMoreVisits = 1.3, kSplitEach = 20;
+  return rays * (kSavedEach * literals - kMoreVisits) > kSplitEach * literals;
 }
 
 /// What a cell takes if it is not split, at most: as a leaf, or open and rounded up to a power of
@@ -47,14 +62,14 @@ void wait_a_little(int round) {
 
 }  // namespace
 
-Refiner::Refiner(const Scene& scene, const SubdivideSettings& settings)
+Refiner::Refiner(const Scene& scene, const UnitBoxes& boxes, const SubdivideSettings& settings)
     : scene_(scene),
       settings_(settings),
       region_edge_(max_component(scene.region.size())),
-      simplifier_(scene, region_edge_ * kCellMargin),
+      simplifier_(scene, boxes, region_edge_ * kCellMargin),
       analysis_(scene) {}
 
-CellLink Refiner::refined(const Cell& cell) {
+CellLink Refiner::refined(const Cell& cell, const Helpers* helpers) {
   for (int round = 0;; ++round) {
     const CellLink link = cell.link();
     if (link.kind() != CellKind::kOpen) return link;
@@ -65,7 +80,7 @@ CellLink Refiner::refined(const Cell& cell) {
     }
     const OpenCell& open = *static_cast<const OpenCell*>(link.target());
     try {
-      const CellLink result = refine(cell, open);
+      const CellLink result = refine(cell, open, helpers);
       cell.bits.store(result.bits(), std::memory_order_release);
       --stats_.cells[size_t(CellKind::kOpen)];
       ++stats_.cells[size_t(result.kind())];
@@ -92,9 +107,13 @@ void Refiner::refine_all(const Cell& cell) {
   }
 }
 
-CellLink Refiner::refine(const Cell& cell, const OpenCell& open) {
+CellLink Refiner::refine(const Cell& cell, const OpenCell& open, const Helpers* helpers) {
   CellLink link;
-  return ends(open, link) ? link : split(cell, open);
+  if (ends(open, link)) return link;
+  if (is_wide(open)) {
+    if (const std::optional<CellLink> grid = split_wide(cell, open, helpers)) return *grid;
+  }
+  return split(cell, open);
 }
 
 /// Whether the cell is not split, and then what it is.
@@ -102,7 +121,11 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
   const double edge = max_component(open.box.size()) / region_edge_;
   const Box world{open.box.lo + scene_.origin, open.box.hi + scene_.origin};
   const bool small = settings_.is_small && settings_.is_small(world);
-  const bool useless = !settings_.is_small && edge * edge * open.literals < settings_.least_use;
+  const double rays = edge * edge * settings_.rays;
+  const bool is_auto = settings_.leaf_size == kAutoLeafSize;
+  const bool useless =
+      !settings_.is_small && (is_auto ? !pays_off(open.literals, rays)
+                                      : edge * edge * open.literals < settings_.least_use);
   const size_t split_bytes = 2 * (sizeof(Cell) + bytes_unsplit(open.literals, open.token_count));
   const bool must_end = small || useless || edge * 0.5 < settings_.smallest_edge ||
                         open.stalled >= stall_limit(open.literals) || open.depth >= kMostDepth ||
@@ -122,7 +145,7 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
     link = decided(analysis_.constant_value());
     return true;
   }
-  const bool simple = simple_enough();
+  const bool simple = is_auto ? !pays_off(analysis_.size(), rays) : simple_enough();
   if (!must_end && !simple) return false;
   link =
       small && settings_.ignore_small && !simple ? CellLink(CellKind::kIgnored, nullptr) : leaf();
@@ -144,13 +167,14 @@ CellLink Refiner::leaf() {
 }
 
 CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
-  const Place place = choose_split(parent);
+  const int axis = split_axis(parent.box.size(), settings_.split, parent.depth);
+  const double at = parent.box.center()[axis];
   OpenCell child[2];
   Truth truth[2];
   size_t unsplit[2] = {0, 0}, weight[2] = {0, 0};
   for (int side = 0; side < 2; ++side) {
     child[side].box = parent.box;
-    (side == 0 ? child[side].box.hi : child[side].box.lo)[place.axis] = place.at;
+    (side == 0 ? child[side].box.hi : child[side].box.lo)[axis] = at;
     stats_.classified += parent.token_count;
     truth[side] = simplifier_.simplify(parent.tokens(), child[side].box,
                                        parent.literals <= kExpandAll, child_formula_[side]);
@@ -162,11 +186,9 @@ CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
   const bool stalls = child[0].literals >= parent.literals && child[1].literals >= parent.literals;
   const size_t taken = 2 * sizeof(Cell) + unsplit[0] + unsplit[1];
   const double rest = parent.memory > taken ? double(parent.memory - taken) : 0;
-  auto* const cells = static_cast<Cell*>(cells_.allocate(2 * sizeof(Cell), 2 * sizeof(Cell)));
-  stats_.memory_bytes += 2 * sizeof(Cell);
+  Cell* const cells = new_pair();
   stats_.depth = std::max(stats_.depth, parent.depth + 1);
   for (int side = 0; side < 2; ++side) {
-    Cell* const made = ::new (cells + side) Cell;
     CellLink link = decided(truth[side] == Truth::kTrue);
     if (truth[side] == Truth::kVaries) {
       child[side].depth = parent.depth + 1;
@@ -175,11 +197,135 @@ CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
           unsplit[side] + size_t(rest * double(weight[side]) / double(weight[0] + weight[1]));
       link = open(child[side], child_formula_[side]);
     }
-    made->bits.store(link.bits(), std::memory_order_relaxed);
+    cells[side].bits.store(link.bits(), std::memory_order_relaxed);
     ++stats_.cells[size_t(link.kind())];
   }
-  cell.split = place.at;
-  return {CellKind::kNode, cells, place.axis};
+  cell.split = at;
+  return {CellKind::kNode, cells, axis};
+}
+
+/// Whether the cell is worth splitting many times at once. Where small cells end early, each split
+/// has to be looked at.
+bool Refiner::is_wide(const OpenCell& open) const {
+  return open.token_count >= kWide && !settings_.is_small && open.depth < kMostDepth / 2 &&
+         operand_count(open.tokens()) >= kWide;
+}
+
+std::optional<CellLink> Refiner::split_wide(const Cell& cell, const OpenCell& parent,
+                                            const Helpers* helpers) {
+  const auto loop = [&](size_t n, size_t grain, const auto& body) {
+    if (helpers == nullptr)
+      body(0, n, 0);
+    else
+      helpers->workers.for_parts(n, grain, body);
+  };
+  const size_t wanted = parent.token_count / kWantedOperands;
+  const int splits = std::min(int(std::bit_width(wanted)), kMostSplitsAtOnce);
+  const SplitGrid grid = make_grid(parent.box, splits, settings_.split, parent.depth);
+  const std::vector<Formula> dealt =
+      deal_operands(scene_, parent.tokens(), grid, region_edge_ * kCellMargin, loop);
+  if (dealt.empty()) return std::nullopt;
+
+  // Nothing gets longer from here on, so if this fits all does.
+  std::vector<uint32_t> literals(dealt.size());
+  loop(dealt.size(), 1, [&](size_t first, size_t last, size_t) {
+    for (size_t part = first; part < last; ++part)
+      literals[part] = expanded_size(scene_, dealt[part]);
+  });
+  size_t most = 0;
+  for (size_t part = 0; part < dealt.size(); ++part)
+    most += 2 * sizeof(Cell) + bytes_unsplit(literals[part], dealt[part].size());
+  if (most > parent.memory) return std::nullopt;
+
+  // Every part by itself.
+  std::vector<CellLink> links(dealt.size());
+  std::vector<OpenCell*> opened(dealt.size());
+  loop(dealt.size(), 1, [&](size_t first, size_t last, size_t worker) {
+    Refiner& refiner = helpers == nullptr ? *this : helpers->refiner_of(worker);
+    for (size_t part = first; part < last; ++part) {
+      refiner.stats_.classified += dealt[part].size();
+      OpenCell child{grid.part(part), 0, parent.depth + uint32_t(splits), 0, 0, 0};
+      Formula& formula = refiner.child_formula_[0];
+      const Truth truth = refiner.simplifier_.simplify(dealt[part], child.box,
+                                                       literals[part] <= kExpandAll, formula);
+      links[part] = decided(truth == Truth::kTrue);
+      if (truth != Truth::kVaries) continue;
+      child.literals = expanded_size(scene_, formula);
+      links[part] = refiner.open(child, formula);
+      opened[part] = static_cast<OpenCell*>(const_cast<void*>(links[part].target()));
+    }
+  });
+
+  size_t taken = 2 * sizeof(Cell) * dealt.size(), weights = 0;
+  for (const OpenCell* open : opened) {
+    if (open == nullptr) continue;
+    taken += bytes_unsplit(open->literals, open->token_count);
+    weights += open->literals + kFew;
+  }
+  const double rest = parent.memory > taken ? double(parent.memory - taken) : 0;
+  for (OpenCell* open : opened) {
+    if (open == nullptr) continue;
+    open->memory = bytes_unsplit(open->literals, open->token_count) +
+                   size_t(rest * double(open->literals + kFew) / double(weights));
+  }
+  stats_.depth = std::max(stats_.depth, parent.depth + uint32_t(splits));
+  return join(cell, grid, links);
+}
+
+/// The splits that lead to the parts of a grid, the last ones first. What is decided alike on both
+/// sides of a split is not split there.
+CellLink Refiner::join(const Cell& cell, const SplitGrid& grid, std::vector<CellLink> links) {
+  std::vector<double> splits(links.size(), 0);
+  std::array<size_t, 3> count{grid.cuts[0].size() - 1, grid.cuts[1].size() - 1,
+                              grid.cuts[2].size() - 1};
+  std::array<size_t, 3> stride{1, 1, 1};  // of the finest parts
+  for (size_t level = grid.axes.size(); level-- > 0;) {
+    const int axis = grid.axes[level];
+    const size_t along = size_t(axis);
+    std::array<size_t, 3> half = count;
+    half[along] /= 2;
+    std::vector<CellLink> joined(half[0] * half[1] * half[2]);
+    std::vector<double> joined_splits(joined.size());
+    for (size_t z = 0; z < half[2]; ++z)
+      for (size_t y = 0; y < half[1]; ++y)
+        for (size_t x = 0; x < half[0]; ++x) {
+          const std::array<size_t, 3> to{x, y, z};
+          std::array<size_t, 3> low = to;
+          low[along] *= 2;
+          std::array<size_t, 3> high = low;
+          ++high[along];
+          const auto number = [&](const std::array<size_t, 3>& at) {
+            return (at[2] * count[1] + at[1]) * count[0] + at[0];
+          };
+          const size_t a = number(low), b = number(high), at = (z * half[1] + y) * half[0] + x;
+          if (links[a].bits() == links[b].bits()) {
+            joined[at] = links[a];
+            continue;
+          }
+          Cell* const pair = new_pair();
+          for (const auto& [made, from] : {std::pair(pair, a), std::pair(pair + 1, b)}) {
+            made->split = splits[from];
+            made->bits.store(links[from].bits(), std::memory_order_relaxed);
+            ++stats_.cells[size_t(links[from].kind())];
+          }
+          joined[at] = CellLink(CellKind::kNode, pair, axis);
+          joined_splits[at] = grid.cuts[along][high[along] * stride[along]];
+        }
+    links = std::move(joined);
+    splits = std::move(joined_splits);
+    count = half;
+    stride[along] *= 2;
+  }
+  cell.split = splits[0];
+  return links[0];
+}
+
+Cell* Refiner::new_pair() {
+  auto* const pair = static_cast<Cell*>(cells_.allocate(2 * sizeof(Cell), 2 * sizeof(Cell)));
+  ::new (pair) Cell;
+  ::new (pair + 1) Cell;
+  stats_.memory_bytes += 2 * sizeof(Cell);
+  return pair;
 }
 
 CellLink Refiner::open(const OpenCell& what, std::span<const Token> formula) {
@@ -219,15 +365,8 @@ bool Refiner::simple_enough() const {
   return analysis_.primitive_count() <= settings_.leaf_size || analysis_.is_plain_union();
 }
 
-Refiner::Place Refiner::choose_split(const OpenCell& open) const {
-  const Vec3 size = open.box.size();
-  int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  if (settings_.split == SplitRule::kXyz) axis = int(open.depth % 3);
-  return {axis, open.box.center()[axis]};
-}
-
 RefinerPool::RefinerPool(const Scene& scene, const SubdivideSettings& settings)
-    : scene_(scene), settings_(settings) {
+    : scene_(scene), settings_(settings), boxes_(scene) {
   open_root();
 }
 
@@ -253,7 +392,7 @@ void RefinerPool::open_root() {
 Refiner& RefinerPool::take() {
   const std::lock_guard lock(mutex_);
   if (unused_.empty()) {
-    all_.push_back(std::make_unique<Refiner>(scene_, settings_));
+    all_.push_back(std::make_unique<Refiner>(scene_, boxes_, settings_));
     unused_.reserve(all_.size());
     return *all_.back();
   }

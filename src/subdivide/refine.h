@@ -6,14 +6,17 @@
 // refined.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "base/arena.h"
 #include "subdivide/leaf.h"
 #include "subdivide/simplify.h"
 #include "subdivide/subdivide.h"
+#include "subdivide/wide.h"
 
 namespace whittle {
 
@@ -32,31 +35,39 @@ struct OpenCell {
   static size_t bytes(size_t tokens) { return sizeof(OpenCell) + tokens * sizeof(Token); }
 };
 
+class Refiner;
+
+/// Threads that help to refine one cell, as long as there are few of them.
+struct Helpers {
+  const Workers& workers;
+  std::function<Refiner&(size_t worker)> refiner_of;
+};
+
 /// Refines cells of one tree; used by one thread at a time.
 class Refiner {
  public:
-  Refiner(const Scene& scene, const SubdivideSettings& settings);
+  Refiner(const Scene& scene, const UnitBoxes& boxes, const SubdivideSettings& settings);
 
   /// What the cell is; never kOpen. If another thread is at it, waits for that. What it throws (out
-  /// of memory) leaves the cell open.
-  CellLink refined(const Cell& cell);
+  /// of memory) leaves the cell open. With helpers, not from within a loop of theirs.
+  CellLink refined(const Cell& cell, const Helpers* helpers = nullptr);
   /// Refines the cell and all below.
   void refine_all(const Cell& cell);
 
  private:
   friend class RefinerPool;
 
-  CellLink refine(const Cell& cell, const OpenCell& open);
+  CellLink refine(const Cell& cell, const OpenCell& open, const Helpers* helpers);
   bool ends(const OpenCell& open, CellLink& link);
   CellLink split(const Cell& cell, const OpenCell& open);
   CellLink leaf();
   bool has_few_half_spaces(std::span<const Token> formula) const;
   bool simple_enough() const;
-  struct Place {
-    int axis;
-    double at;
-  };
-  Place choose_split(const OpenCell& open) const;
+  bool is_wide(const OpenCell& open) const;
+  std::optional<CellLink> split_wide(const Cell& cell, const OpenCell& parent,
+                                     const Helpers* helpers);
+  CellLink join(const Cell& cell, const SplitGrid& grid, std::vector<CellLink> links);
+  Cell* new_pair();
   /// A cell of its own, open or decided already.
   CellLink open(const OpenCell& what, std::span<const Token> formula);
   CellLink decided(bool full);
@@ -92,6 +103,7 @@ class RefinerPool {
 
   const Scene& scene_;
   const SubdivideSettings settings_;
+  const UnitBoxes boxes_;
   Cell root_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<Refiner>> all_;
@@ -107,6 +119,7 @@ class RefinerLease {
   RefinerLease& operator=(const RefinerLease&) = delete;
 
   Refiner* operator->() const { return &refiner_; }
+  Refiner& operator*() const { return refiner_; }
 
  private:
   RefinerPool& pool_;

@@ -1,6 +1,8 @@
 #include "subdivide/simplify.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 #include "lower/evaluate.h"
 
@@ -67,7 +69,45 @@ Truth Simplifier::conjunction(FaceAt&& face_at, uint32_t count, bool negated, co
     const Unit& unit = scene_.units[scene_.faces[face_at(0)].unit];
     if (unit.first_box != Unit::kNoBoxes) drop_far_facets(unit, cell, first, out);
   }
-  return out.size() > first ? Truth::kVaries : truth(Side::kInside, negated);
+  const size_t crossing = out.size() - first;
+  if (tight_ && crossing > 1 && crossing <= kFewFacets && !settle_pairs(cell, first, out))
+    return truth(Side::kOutside, negated);
+  return crossing > 0 ? Truth::kVaries : truth(Side::kInside, negated);
+}
+
+/// Looks at the faces of one primitive two by two: a face beyond which nothing of another one is in
+/// the cell says nothing there and is dropped. False if two of them have nothing in common in the
+/// cell; then `out` ends at `first`.
+bool Simplifier::settle_pairs(const CellBox& cell, size_t first, Formula& out) const {
+  std::array<Bound, kFewFacets> bounds;
+  size_t count = out.size() - first;
+  // Nothing is to be found out where all are square to the axes.
+  const auto is_square = [&](Token token) {
+    const HalfSpace& h = scene_.half_spaces[scene_.faces[token.payload()].literal >> 1];
+    return h.is_plane() && (h.f.b.x == 0) + (h.f.b.y == 0) + (h.f.b.z == 0) == 2;
+  };
+  if (std::all_of(out.end() - std::ptrdiff_t(count), out.end(), is_square)) return true;
+  for (size_t i = 0; i < count; ++i)
+    bounds[i] = outer_bound(scene_, scene_.faces[out[first + i].payload()].literal, cell);
+  for (size_t i = 0; i < count; ++i)
+    for (size_t j = 0; j < i; ++j)
+      if (are_apart(bounds[i], bounds[j], cell.half, margin_)) {
+        out.resize(first);
+        return false;
+      }
+  for (size_t j = count; j-- > 0;) {
+    if (!bounds[j].is_plane) continue;
+    const Bound beyond{-bounds[j].n, -bounds[j].value, true};
+    for (size_t i = 0; i < count; ++i) {
+      if (i == j || !are_apart(bounds[i], beyond, cell.half, margin_)) continue;
+      out.erase(out.begin() + std::ptrdiff_t(first + j));
+      std::copy(bounds.begin() + std::ptrdiff_t(j) + 1, bounds.begin() + std::ptrdiff_t(count),
+                bounds.begin() + std::ptrdiff_t(j));
+      --count;
+      break;
+    }
+  }
+  return true;
 }
 
 /// Drops the faces whose facet does not reach the cell. All around a finely facetted body the
@@ -133,11 +173,31 @@ Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, bool 
                            Formula& out) {
   const CellBox cell(cell_box, margin_);
   const double cell_edge = max_component(cell_box.size());
+  tight_ = expand_all;
   out.clear();
   open_.clear();
+  const bool in_batches = boxes_.are_worth_it(in.size());
+  UnitBoxes::Batch batch;
+  uint32_t batch_first = 0, batch_end = 0;
   uint32_t i = 0;
   while (true) {
-    // One operand.
+    // One operand. Primitives beside the cell are found many at a time, and those that say nothing
+    // in their group there are passed over together.
+    if (in_batches && i >= batch_end) {
+      batch_first = i;
+      batch_end = std::min(uint32_t(in.size()), i + UnitBoxes::kBatch);
+      batch = boxes_.look_at(in.subspan(i, batch_end - i), cell);
+    }
+    if (!open_.empty()) {
+      const Open& group = open_.back();
+      const uint32_t keeps = group.kind == TokenKind::kAnd ? batch.negated : ~batch.negated;
+      const uint32_t neutral = (batch.beside & keeps) | (batch.within & ~keeps);
+      const uint32_t count = uint32_t(std::countr_one(neutral >> (i - batch_first)));
+      if (const uint32_t skipped = std::min(count, group.in_end - 1 - i); skipped > 0) {
+        i += skipped;
+        continue;
+      }
+    }
     const Token token = in[i];
     Truth value = Truth::kVaries;
     Kept kept;
@@ -153,6 +213,12 @@ Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, bool 
     }
     if (token.is_group()) {
       value = token.kind() == TokenKind::kAnd ? Truth::kTrue : Truth::kFalse;
+    } else if (const uint32_t bit = 1u << (i - batch_first); (batch.beside & bit) != 0) {
+      value = truth(Side::kOutside, token.negated());
+    } else if ((batch.within & bit) != 0) {
+      value = truth(Side::kInside, token.negated());
+    } else if ((batch.balls & bit) != 0) {
+      out.push_back(token);
     } else if (token.kind() == TokenKind::kUnit) {
       value = unit(token, cell, cell_edge, expand_all, out, kept);
     } else {
@@ -164,7 +230,10 @@ Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, bool 
              scene_.faces[in[i + 1].payload()].unit == unit_number)
         ++i;
       const size_t before = out.size();
-      value = conjunction(face_at, i + 1 - first, token.negated(), cell, out);
+      const Side side = classify_bounds(scene_.units[unit_number], cell);
+      value = side == Side::kCrosses
+                  ? conjunction(face_at, i + 1 - first, token.negated(), cell, out)
+                  : truth(side, token.negated());
       kept.operands = uint32_t(out.size() - before);
     }
     ++i;

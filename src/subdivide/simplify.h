@@ -10,6 +10,7 @@
 
 #include "lower/scene.h"
 #include "subdivide/classify.h"
+#include "subdivide/unit_boxes.h"
 
 namespace whittle {
 
@@ -17,8 +18,10 @@ enum class Truth : uint8_t { kFalse, kTrue, kVaries };
 
 class Simplifier {
  public:
-  /// `margin`: how far a cell is grown before anything is classified, local units.
-  Simplifier(const Scene& scene, double margin) : scene_(scene), margin_(margin) {}
+  /// `boxes` are the scene's. `margin`: how far a cell is grown before anything is classified,
+  /// local units.
+  Simplifier(const Scene& scene, const UnitBoxes& boxes, double margin)
+      : scene_(scene), boxes_(boxes), margin_(margin) {}
 
   /// Writes to `out` the formula that equals `in` at every point of `cell`, operands in the same
   /// order; returns its truth, and leaves `out` empty if that is constant. A primitive is replaced
@@ -48,13 +51,16 @@ class Simplifier {
   template <class FaceAt>
   Truth conjunction(FaceAt&& face_at, uint32_t count, bool negated, const CellBox& cell,
                     Formula& out);
+  bool settle_pairs(const CellBox& cell, size_t first, Formula& out) const;
   void drop_far_facets(const Unit& unit, const CellBox& cell, size_t first, Formula& out) const;
   bool meets(std::span<const Token> faces, const CellBox& cell) const;
   Kept close_group(const Open& group, Formula& out) const;
   bool joins_group_around(TokenKind kind, size_t depth) const;
 
   const Scene& scene_;
+  const UnitBoxes& boxes_;
   double margin_;
+  bool tight_ = false;  ///< few operands are looked at, so that each may take its time
   std::vector<Open> open_;
 };
 

@@ -57,8 +57,8 @@ class Program {
 /// The search in one direction, +axis or -axis.
 class Search {
  public:
-  Search(const Scene& scene, int axis, int sign, double accuracy)
-      : scene_(scene), axis_(axis), sign_(sign), accuracy_(accuracy), simplifier_(scene, 0) {
+  Search(const Scene& scene, const UnitBoxes& boxes, int axis, int sign, double accuracy)
+      : scene_(scene), axis_(axis), sign_(sign), accuracy_(accuracy), simplifier_(scene, boxes, 0) {
     objective_[axis] = sign;
   }
 
@@ -316,12 +316,12 @@ class Search {
 };
 
 /// The solid's box within `start`, local, each side wrong by at most `accuracy`.
-SolidBounds search_all(const Scene& scene, const Box& start, double accuracy, size_t most_cells,
-                       const Workers& workers) {
+SolidBounds search_all(const Scene& scene, const UnitBoxes& boxes, const Box& start,
+                       double accuracy, size_t most_cells, const Workers& workers) {
   std::array<Farthest, 6> found;
   workers.for_parts(found.size(), 1, [&](size_t first, size_t last, size_t) {
     for (size_t i = first; i < last; ++i)
-      found[i] = Search(scene, int(i / 2), i % 2 ? 1 : -1, accuracy).run(start, most_cells);
+      found[i] = Search(scene, boxes, int(i / 2), i % 2 ? 1 : -1, accuracy).run(start, most_cells);
   });
   SolidBounds result;
   for (int axis = 0; axis < 3; ++axis) {
@@ -338,6 +338,7 @@ SolidBounds search_all(const Scene& scene, const Box& start, double accuracy, si
 SolidBounds solid_bounds(const Scene& scene, int threads, size_t most_cells) {
   if (scene.region.is_empty()) return {};
   const Workers workers(threads);
+  const UnitBoxes boxes(scene);
   SolidBounds result;
   Box start = scene.region;
   // A box that turns out much smaller than where it was looked for is looked for again in there.
@@ -346,7 +347,7 @@ SolidBounds solid_bounds(const Scene& scene, int threads, size_t most_cells) {
   for (int round = 0; round < kMostRounds; ++round) {
     const double edge = max_component(start.size());
     const double accuracy = kBoundsAccuracy * kMuchSmaller * edge;
-    const SolidBounds found = search_all(scene, start, accuracy, most_cells, workers);
+    const SolidBounds found = search_all(scene, boxes, start, accuracy, most_cells, workers);
     if (found.box.is_empty() && round > 0) break;
     result = found;
     if (found.box.is_empty()) return result;

@@ -129,7 +129,8 @@ bool has_solid_in(const Scene& scene, const Box& box, double smallest) {
     Box box;
     Formula formula;
   };
-  Simplifier simplifier(scene, 0);
+  const UnitBoxes boxes(scene);
+  Simplifier simplifier(scene, boxes, 0);
   LeafAnalysis leaf(scene);
   std::vector<Item> stack{{box, scene.formula}};
   while (!stack.empty()) {

@@ -19,6 +19,10 @@ constexpr size_t kEnough = 256;
 template <class Wanted>
 std::vector<const Cell*> widen(const CellTree& tree, const Workers& workers,
                                PerWorker<RefinerLease>& refiners, Wanted&& wanted) {
+  // What is very long, many threads split together.
+  const Helpers helpers{workers,
+                        [&](size_t worker) -> Refiner& { return *refiners.of(worker, tree); }};
+  RefinerLease(tree)->refined(*tree.root, &helpers);
   std::vector<const Cell*> level{tree.root};
   while (!level.empty() && level.size() < kEnough) {
     std::vector<CellLink> links(level.size());

@@ -19,19 +19,33 @@ enum class SplitRule {
   kXyz,      ///< X, Y, Z in turn, in the middle: the paper's
 };
 
+/// Which axis is cut of a cell of that size.
+inline int split_axis(Vec3 size, SplitRule rule, uint32_t depth) {
+  if (rule == SplitRule::kXyz) return int(depth % 3);
+  return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+}
+
 enum class LeafRule {
   kHalfSpaces,  ///< at most leaf_size half-spaces
   kPrimitives,  ///< the paper's: at most leaf_size primitives, or a union of any number
 };
 
+/// A cell is split if that is expected to save the rays that meet it more than it takes
+/// (docs/decisions/0014-leaf-size.md).
+inline constexpr uint32_t kAutoLeafSize = 0;
+
 struct SubdivideSettings {
-  uint32_t leaf_size = 6;
+  /// Half-spaces (or primitives) that a leaf may hold, or kAutoLeafSize.
+  uint32_t leaf_size = kAutoLeafSize;
+  /// kAutoLeafSize: how many rays there will be, about.
+  double rays = 512.0 * 512;
   SplitRule split = SplitRule::kLongest;
   LeafRule leaf = LeafRule::kHalfSpaces;
   /// The smallest useful cell: one with (edge / region's edge)^2 * literals below this is not split
   /// any more. The square is about the share of rays that meet the cell, the literals are what
   /// each of them costs there; where surfaces meet for good, splitting soon costs more than it
-  /// saves (measured: docs/decisions/0007-smallest-useful-cell.md). Not used if `is_small` is set.
+  /// saves (measured: docs/decisions/0007-smallest-useful-cell.md). Not used if `is_small` is set,
+  /// or with kAutoLeafSize.
   double least_use = 1.0 / 4096;
   /// No cell's edge gets smaller than this share of the region's longest edge, whatever is in it.
   double smallest_edge = 1.0 / 16384;

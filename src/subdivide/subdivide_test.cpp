@@ -13,8 +13,8 @@
 #include "lower/evaluate.h"
 #include "lower/lower.h"
 #include "subdivide/leaf.h"
+#include "subdivide/points_for_test.h"
 #include "subdivide/refine.h"
-#include "subdivide/simplify.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"
 
@@ -24,29 +24,6 @@ namespace {
 Scene lowered(const std::string& text) {
   return *lower(model_of(text));
 }
-
-/// Random points of a box, and some on its sides and corners.
-class Points {
- public:
-  explicit Points(uint64_t seed) : random_(seed) {}
-  Vec3 in(const Box& box) {
-    Vec3 p;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double u = random_() % 8 == 0 ? double(random_() % 2) : unit_(random_);
-      p[axis] = box.lo[axis] + u * (box.hi[axis] - box.lo[axis]);
-    }
-    return max(box.lo, min(p, box.hi));
-  }
-  Box box_in(const Box& box) {
-    Box b;
-    b.include(in(box)), b.include(in(box));
-    return b;
-  }
-
- private:
-  std::mt19937_64 random_;
-  std::uniform_real_distribution<double> unit_{0, 1};
-};
 
 /// True if the point is so near to a surface that two roundings of it may differ.
 bool near_a_surface(const Scene& scene, Vec3 p) {
@@ -91,137 +68,6 @@ uint64_t cell_count(const CellTree& tree) {
   return statistics_of(tree).cell_count();
 }
 
-TEST(Classify, InsideAndOutsideAreNeverWrong) {
-  Points points(3);
-  for (uint64_t seed = 0; seed < 100; ++seed) {
-    const Scene scene = lowered(random_tree(seed));
-    for (const HalfSpace& h : scene.half_spaces) {
-      const Box box = points.box_in(scene.region);
-      const Side side = classify(h, CellBox(box, 0));
-      if (side == Side::kCrosses) continue;
-      for (int i = 0; i < 20; ++i)
-        ASSERT_EQ(contains(h, points.in(box)), side == Side::kInside) << seed;
-    }
-  }
-}
-
-TEST(Classify, BoundsOfAPrimitiveAreNeverWrong) {
-  Points points(4);
-  const Scene scene = lowered("rotate([10,20,30]) sphere(10, $fn = 24);");
-  ASSERT_GT(scene.units[0].inner_radius, 5);
-  int proofs = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const Box box = points.box_in(scene.region);
-    const Side side = classify_bounds(scene.units[0], CellBox(box, 0));
-    if (side == Side::kCrosses) continue;
-    ++proofs;
-    for (int j = 0; j < 8; ++j)
-      ASSERT_EQ(contains(scene, scene.formula, points.in(box)), side == Side::kInside);
-  }
-  EXPECT_GT(proofs, 100);
-}
-
-bool value_of(Truth truth, const Scene& scene, const Formula& formula, Vec3 p) {
-  return truth == Truth::kVaries ? contains(scene, formula, p) : truth == Truth::kTrue;
-}
-
-TEST(Simplify, KeepsTheValueInsideTheCell) {
-  Points points(5);
-  int shorter = 0, constant = 0;
-  for (uint64_t seed = 0; seed < 300; ++seed) {
-    const Scene scene = lowered(random_tree(seed));
-    if (scene.region.is_empty()) continue;
-    Simplifier simplifier(scene, 0);
-    Formula outer, inner;
-    const Box box = points.box_in(scene.region);
-    const Truth truth = simplifier.simplify(scene.formula, box, seed % 2, outer);
-    shorter += outer.size() < scene.formula.size();
-    constant += truth != Truth::kVaries;
-    for (int i = 0; i < 20; ++i) {
-      const Vec3 p = points.in(box);
-      const bool whole = contains(scene, scene.formula, p);
-      ASSERT_EQ(value_of(truth, scene, outer, p), whole) << seed;
-    }
-    if (truth != Truth::kVaries) continue;
-    // From the parent's formula as from the whole one.
-    const Box child = points.box_in(box);
-    const Truth child_truth = simplifier.simplify(outer, child, true, inner);
-    for (int i = 0; i < 20; ++i) {
-      const Vec3 p = points.in(child);
-      const bool whole = contains(scene, scene.formula, p);
-      ASSERT_EQ(value_of(child_truth, scene, inner, p), whole) << seed;
-    }
-  }
-  EXPECT_GT(shorter, 100);
-  EXPECT_GT(constant, 10);
-}
-
-/// The formula with its pass headers left out: they mean nothing by themselves.
-Formula bare(const Formula& formula) {
-  Formula result;
-  for (const Token token : formula)
-    if (!token.is_pass()) result.push_back(token.is_group() ? Token::make(token.kind(), 0) : token);
-  return result;
-}
-
-TEST(Simplify, TwiceIsOnce) {
-  Points points(6);
-  for (uint64_t seed = 0; seed < 300; ++seed) {
-    const Scene scene = lowered(random_tree(seed));
-    if (scene.region.is_empty()) continue;
-    Simplifier simplifier(scene, 0);
-    Formula once, twice, thrice;
-    const Box box = points.box_in(scene.region);
-    if (simplifier.simplify(scene.formula, box, true, once) != Truth::kVaries) continue;
-    ASSERT_EQ(simplifier.simplify(once, box, true, twice), Truth::kVaries);
-    EXPECT_EQ(bare(once).size(), bare(twice).size()) << seed;
-    ASSERT_EQ(simplifier.simplify(twice, box, true, thrice), Truth::kVaries);
-    EXPECT_EQ(twice, thrice) << seed;
-  }
-}
-
-TEST(Simplify, AGroupLeftWithOneOperandJoinsTheGroupAround) {
-  // Or(a, And(b, Or(c, d))) where b is everywhere and c nowhere in the cell: Or(a, d).
-  const Scene scene = lowered(
-      "union(){ sphere(1); intersection(){ cube(100, center = true);"
-      " union(){ translate([50,0,0]) sphere(1); translate([1,0,0]) sphere(1); } } }");
-  Simplifier simplifier(scene, 0);
-  Formula out;
-  const Box cell{Vec3{0.4, -0.5, -1} - scene.origin, Vec3{0.6, 0.5, 1} - scene.origin};
-  ASSERT_EQ(simplifier.simplify(scene.formula, cell, true, out), Truth::kVaries);
-  LeafAnalysis leaf(scene);
-  leaf.analyse(out);
-  EXPECT_EQ(leaf.size(), 2u);
-  Arena arena;
-  EXPECT_EQ(leaf.write(arena).kind(), CellKind::kDisjunction);
-}
-
-TEST(Simplify, FacetsThatDoNotReachTheCellAreDropped) {
-  // The planes of a finely facetted sphere all cross any cell at its surface of some size.
-  Points points(8);
-  const Scene scene = lowered("rotate([10,20,30]) scale([1,1.5,0.7]) sphere(10, $fn = 60);");
-  Simplifier simplifier(scene, 0);
-  Formula outer, inner;
-  size_t kept = 0, cells = 0;
-  for (int i = 0; i < 3000; ++i) {
-    Box box;
-    box.include(points.in(scene.region));
-    box.include(box.lo + scene.region.size() * 0.15);
-    if (simplifier.simplify(scene.formula, box, true, outer) != Truth::kVaries) continue;
-    Box child = points.box_in(box);
-    const Truth truth = simplifier.simplify(outer, child, true, inner);
-    for (int j = 0; j < 20; ++j) {
-      const Vec3 p = points.in(box), q = points.in(child);
-      ASSERT_EQ(contains(scene, outer, p), contains(scene, scene.formula, p));
-      ASSERT_EQ(value_of(truth, scene, inner, q), contains(scene, scene.formula, q));
-    }
-    kept += expanded_size(scene, outer);
-    ++cells;
-  }
-  ASSERT_GT(cells, 300u);
-  EXPECT_LT(double(kept) / double(cells), 60) << "of " << scene.faces.size();
-}
-
 TEST(Leaf, TablesAreSimplifiedCompletely) {
   // (a and b) or (a and not b) is a; a and not a is nothing.
   const Scene same = lowered(
@@ -260,7 +106,7 @@ struct Rules {
 
 std::vector<Rules> all_rules() {
   std::vector<Rules> rules;
-  for (const uint32_t k : {1u, 2u, 4u, 6u, 8u, 16u}) {
+  for (const uint32_t k : {kAutoLeafSize, 1u, 2u, 4u, 6u, 8u, 16u}) {
     SubdivideSettings settings;
     settings.leaf_size = k;
     rules.push_back({"k=" + std::to_string(k), settings});
@@ -430,11 +276,61 @@ TEST(Subdivide, NothingIsRefinedThatNobodyLooksAt) {
   EXPECT_GT(compared, splits);
 }
 
+TEST(Subdivide, CellsThatAreSplitManyTimesAtOnceAreRight) {
+  // Wide unions, differences and intersections; the last one of boxes that do not tell anything.
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto at_random = [&] {
+    return "translate([" + std::to_string(100 * unit(random)) + "," +
+           std::to_string(60 * unit(random)) + "," + std::to_string(30 * unit(random)) + "])";
+  };
+  std::string balls, groups, shells;
+  for (int i = 0; i < 4200; ++i) {
+    balls += at_random() + "sphere(" + std::to_string(0.5 + unit(random)) + ");";
+    groups += at_random() + "difference(){cube(2);sphere(1);intersection(){cube(1);sphere(1.2);}}";
+    if (i % 10 == 0)
+      shells += "difference(){cube([100,60,30]);" + at_random() + "cylinder(r=0.5,h=3);}";
+  }
+  Points points(12);
+  for (const std::string& text :
+       {groups, "difference(){cube([100,60,30]);" + balls + "}",
+        // Wide only after a split, and then with a minuend that does not fill the cell.
+        "difference(){cube([30,60,30]);scale([0.45,1,1]){" + balls +
+            "}} translate([70,30,15]) sphere(20);",
+        "intersection(){" + shells + "union(){" + balls + "}" + shells + "}"}) {
+    const Scene scene = lowered(text);
+    SubdivideSettings one, four;
+    one.threads = 1, four.threads = 4;
+    one.rays = four.rays = 1e4;
+    const CellTree tree = subdivide(scene, one);
+    EXPECT_TRUE(same(tree, subdivide(scene, four)));
+    const CellTree lazy = open_cells(scene, one);
+    RefinerLease(lazy)->refine_all(*lazy.root);
+    EXPECT_TRUE(same(tree, lazy));
+    uint32_t number = 0;
+    size_t looked_at = 0;
+    for_each_leaf(tree, [&](CellLink cell, const Box& box) {
+      if (++number % 13 != 0) return;
+      const Vec3 p = points.in(box);
+      if (near_a_surface(scene, p)) return;
+      ++looked_at;
+      ASSERT_EQ(leaf_value(scene, cell, p), contains(scene, scene.formula, p));
+    });
+    EXPECT_GT(looked_at, 20u);
+    // With little memory as well.
+    one.memory = four.memory = 6'000'000;
+    const CellTree poor = subdivide(scene, one);
+    EXPECT_LE(statistics_of(poor).memory_bytes, one.memory);
+    EXPECT_TRUE(same(poor, subdivide(scene, four)));
+  }
+}
+
 TEST(Subdivide, CopiesOfOneBodyAreOneLeaf) {
   std::string text;
   for (int i = 0; i < 1000; ++i) text += "cube(10);";
   const Scene scene = lowered(text);
   SubdivideSettings settings;
+  settings.leaf_size = 6;
   EXPECT_EQ(cell_count(subdivide(scene, settings)), 1u);
 }
 
@@ -458,6 +354,18 @@ TEST(Subdivide, DoesNotDependOnTheNumberOfThreads) {
     SubdivideSettings one, four;
     one.threads = 1, four.threads = 4;
     EXPECT_TRUE(same(subdivide(scene, one), subdivide(scene, four))) << seed;
+  }
+}
+
+TEST(Subdivide, MoreRaysAreWorthMoreCells) {
+  const Scene scene = lowered(random_tree(3, {.primitives = 300}));
+  uint64_t cells = 0;
+  for (const double rays : {1e2, 1e4, 1e6, 1e8}) {
+    SubdivideSettings settings;
+    settings.rays = rays;
+    const uint64_t now = cell_count(subdivide(scene, settings));
+    EXPECT_GT(now, cells) << rays;
+    cells = now;
   }
 }
 

@@ -14,12 +14,12 @@
 namespace whittle {
 namespace {
 
-Scene lowered(const std::string& text) {
+Scene scene_of(const std::string& text) {
   return *lower(model_of(text));
 }
 
 TEST(Tangents, APlaneIsItsOwnTangent) {
-  const Scene scene = lowered("halfspace(n = [1, 2, 2], d = 6);");
+  const Scene scene = scene_of("halfspace(n = [1, 2, 2], d = 6);");
   const auto t = tangent(scene, scene.faces[0].literal, Vec3{1, 1, 0} - scene.origin);
   ASSERT_TRUE(t);
   EXPECT_NEAR(length(t->plane.n - Vec3{1, 2, 2} / 3), 0, 1e-15);
@@ -28,13 +28,13 @@ TEST(Tangents, APlaneIsItsOwnTangent) {
 }
 
 TEST(Tangents, ThereIsNoneInTheMiddleOfABall) {
-  const Scene scene = lowered("sphere(5);");
+  const Scene scene = scene_of("sphere(5);");
   EXPECT_FALSE(tangent(scene, 0, scene.half_spaces[0].center));
 }
 
 TEST(Tangents, TheRimOfTwoSurfacesIsFoundFromAFarCell) {
   // A ball with a bore: the rim is at z = 8, and no cell is small here.
-  const Scene scene = lowered("difference(){ sphere(10); cylinder(h=40,r=6,center=true); }");
+  const Scene scene = scene_of("difference(){ sphere(10); cylinder(h=40,r=6,center=true); }");
   ASSERT_GE(scene.faces.size(), 2u);
   const Vec3 center = Vec3{6, 0.3, 8.1} - scene.origin, half{0.5, 0.5, 0.1};
   std::vector<Tangent> walls;
@@ -55,7 +55,7 @@ TEST(Tangents, BoundsHoldForEveryPointOfTheCell) {
   std::uniform_real_distribution<double> unit(-1, 1);
   int points = 0, finite = 0;
   for (uint64_t seed = 0; seed < 200; ++seed) {
-    const Scene scene = lowered(random_tree(seed));
+    const Scene scene = scene_of(random_tree(seed));
     if (scene.half_spaces.size() < 3) continue;
     for (int cell = 0; cell < 30; ++cell) {
       // Near a surface, so that something is left of the cell.

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "base/vec.h"
@@ -24,13 +26,35 @@ struct Hit {
   bool hit() const { return id != 0; }
 };
 
+/// Leaves new elements of a vector as they are until someone writes them.
+template <class T>
+struct UnfilledAllocator : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = UnfilledAllocator<U>;
+  };
+  template <class U>
+  void construct(U*) noexcept {}
+  template <class U, class... Parts>
+  void construct(U* at, Parts&&... parts) {
+    std::construct_at(at, std::forward<Parts>(parts)...);
+  }
+};
+
 /// One hit a pixel, rows from the top, each from the left.
 struct Frame {
   int width = 0, height = 0;
-  std::vector<Hit> hits;  ///< width * height
+  std::vector<Hit, UnfilledAllocator<Hit>> hits;  ///< width * height
 
   Frame() = default;
-  Frame(int w, int h) : width(w), height(h), hits(size_t(w) * size_t(h)) {}
+  Frame(int w, int h) : width(w), height(h), hits(size_t(w) * size_t(h), Hit{}) {}
+  /// For whoever writes every pixel, on many threads.
+  static Frame unfilled(int w, int h) {
+    Frame frame;
+    frame.width = w, frame.height = h;
+    frame.hits.resize(size_t(w) * size_t(h));
+    return frame;
+  }
   const Hit& at(int x, int y) const { return hits[size_t(y) * size_t(width) + size_t(x)]; }
   Hit& at(int x, int y) { return hits[size_t(y) * size_t(width) + size_t(x)]; }
 };

@@ -132,6 +132,7 @@ Status Renderer::State::make_tracer(const Camera& camera) {
   cells.reset();
   SubdivideSettings subdivision = settings.subdivide;
   subdivision.threads = settings.threads;
+  subdivision.rays = double(camera.width) * double(camera.height);
   if (settings.pixel_threshold > 0) {
     subdivision.is_small = [camera, pixels = settings.pixel_threshold](const Box& box) {
       return is_below_pixels(camera, box, pixels);

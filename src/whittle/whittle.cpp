@@ -152,7 +152,7 @@ Rendering Solid::render(const RenderOptions& options) const {
   Rendering made;
   made.width = frame.width;
   made.height = frame.height;
-  made.rgba = std::move(picture.rgba);
+  made.rgba.assign(picture.rgba.begin(), picture.rgba.end());
   made.distance.reserve(frame.hits.size());
   made.normal.reserve(3 * frame.hits.size());
   made.id.reserve(frame.hits.size());
@@ -175,7 +175,7 @@ void Rendering::write(const std::string& path) const {
     refuse("a rendering must have an entry for each of its pixels");
   }
   Picture picture(width, height);
-  picture.rgba = rgba;
+  picture.rgba.assign(rgba.begin(), rgba.end());
   Frame frame(width, height);
   for (size_t i = 0; i < pixels; ++i) {
     frame.hits[i] = {distance[i], id[i], {normal[3 * i], normal[3 * i + 1], normal[3 * i + 2]}};

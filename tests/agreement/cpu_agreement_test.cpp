@@ -15,7 +15,7 @@
 namespace whittle {
 namespace {
 
-constexpr uint32_t kLeafSizes[] = {2, 4, 6, 16};
+constexpr uint32_t kLeafSizes[] = {2, kAutoLeafSize, 6, 16};
 
 SubdivideSettings leaf_size(uint32_t k) {
   SubdivideSettings settings;
@@ -132,13 +132,13 @@ TEST(CpuAgreement, CoincidentAndNearlyCoincidentRandomTrees) {
   EXPECT_LT(sum.ambiguous, sum.pixels / 20);
 }
 
-TEST(CpuAgreement, SameBytesOnOneAndOnManyThreads) {
+TEST(CpuAgreement, SameBytesLazilyOnOneAndEagerlyOnManyThreads) {
   for (const char* name : {"/cheese1000.csg", "/bearing-housing.csg", "/menger3.csg"}) {
     const Result<Read> read = read_file(std::string(WHITTLE_EXAMPLES) + name);
     ASSERT_TRUE(read) << read.error().message;
     SubdivideSettings one = leaf_size(6), many = leaf_size(6);
     one.threads = 1, many.threads = 7;
-    CpuSubject a(read->model, one), b(read->model, many);
+    CpuSubject a(read->model, one), b(read->model, many, true);
     const Camera camera = cameras_for(read->model, 256, 192)[0];
     const Frame fa = a.tracer->render(camera, {}), fb = b.tracer->render(camera, {});
     ASSERT_EQ(fa.hits.size(), fb.hits.size());

@@ -13,10 +13,6 @@ Where in_box(Vec3 lo, Vec3 hi) {
   };
 }
 
-double radius(Vec3 p) {
-  return std::hypot(p.x, p.y);
-}
-
 /// Bricks 3 long and 2 high in three courses, the middle one shifted by half a brick.
 CoincidentScene brick_wall() {
   CoincidentScene scene{.name = "brick_wall",

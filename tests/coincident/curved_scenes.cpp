@@ -5,21 +5,6 @@
 #include "coincident/scenes.h"
 
 namespace whittle {
-namespace {
-
-Where below(double z) {
-  return [=](Vec3 p) { return p.z < z; };
-}
-Where above(double z) {
-  return [=](Vec3 p) { return p.z > z; };
-}
-
-double radius(Vec3 p) {
-  return std::hypot(p.x, p.y);
-}
-
-}  // namespace
-
 std::vector<CoincidentScene> curved_scenes() {
   return {
       {.name = "sleeve_on_shaft",

@@ -4,17 +4,6 @@
 #include "coincident/scenes.h"
 
 namespace whittle {
-namespace {
-
-Where below(double z) {
-  return [=](Vec3 p) { return p.z < z; };
-}
-Where above(double z) {
-  return [=](Vec3 p) { return p.z > z; };
-}
-
-}  // namespace
-
 std::vector<CoincidentScene> facet_scenes() {
   return {
       {.name = "house",

@@ -5,6 +5,7 @@
 // `face`, the scene shows its own number `owner` (docs/conventions.md, tie rules).
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <ostream>
@@ -17,6 +18,18 @@ namespace whittle {
 
 /// Where some of the surface lies, as a test on its points.
 using Where = std::function<bool(Vec3)>;
+
+inline Where below(double z) {
+  return [=](Vec3 p) { return p.z < z; };
+}
+inline Where above(double z) {
+  return [=](Vec3 p) { return p.z > z; };
+}
+
+/// From the z axis.
+inline double radius(Vec3 p) {
+  return std::hypot(p.x, p.y);
+}
 
 /// An `equal` of which nothing is seen.
 inline constexpr const char* kNothing = "group();";

@@ -13,10 +13,6 @@ namespace {
 
 constexpr double kTolerance = 2e-5;
 
-double radius(Vec3 p) {
-  return std::hypot(p.x, p.y);
-}
-
 /// An ellipsoid with its axes along the coordinates'.
 struct Ellipsoid {
   Vec3 center, radii;

@@ -60,12 +60,17 @@ void check(std::span<const uint8_t> bytes) {
   settings.memory = kCellsOfOne;
   CpuSubject cpu(model, settings);
   const auto oracle = make_oracle_tracer(model, 1);
-  const AgreementReport report =
-      find_differences(model, *cpu.tracer, *oracle, camera_of(model, input.view));
-  const auto disagreements = cpu.tracer->stats().disagreements;
   // Square to an axis a ray runs in faces and exactly through edges. What it touches there without
   // entering, rounding decides, and no ray beside it need see the same: only certain pixels count.
-  const int unmatched = input.view < kAslantViews ? report.ambiguous_unmatched : 0;
+  // Where it ends on such an edge, whose surface that is is rounding's word too, and the four
+  // places beside it may all show another.
+  const bool aslant = input.view < kAslantViews;
+  const auto any_owner = [](const Ray&, const Hit&, uint32_t) { return true; };
+  const AgreementReport report =
+      find_differences(model, *cpu.tracer, *oracle, camera_of(model, input.view),
+                       aslant ? AcceptsId{} : AcceptsId(any_owner));
+  const auto disagreements = cpu.tracer->stats().disagreements;
+  const int unmatched = aslant ? report.ambiguous_unmatched : 0;
   if (report.unexplained == 0 && unmatched == 0 && disagreements == 0) return;
   require(false, "k = " + std::to_string(input.leaf_size) + ", view " + std::to_string(input.view) +
                      ": " + std::to_string(report.unexplained) + " unexplained, " +

@@ -273,9 +273,10 @@ AgreementReport check_agreement(const Model& model, Tracer& subject, Tracer& ora
 }
 
 AgreementReport find_differences(const Model& model, Tracer& subject, Tracer& oracle,
-                                 const Camera& camera) {
+                                 const Camera& camera, const AcceptsId& accepts) {
   const Frame expected = oracle.render(camera), seen = subject.render(camera);
-  return check_different(model, subject.name(), seen, oracle, expected, camera, 0, kSameId);
+  return check_different(model, subject.name(), seen, oracle, expected, camera, 0,
+                         accepts ? accepts : kSameId);
 }
 
 AgreementReport check_pictures(const Model& model, const Frame& seen, Tracer& oracle,

@@ -47,13 +47,14 @@ AgreementReport& operator+=(AgreementReport& sum, const AgreementReport& one);
 AgreementReport check_agreement(const Model& model, Tracer& subject, Tracer& oracle,
                                 const Camera& camera);
 
-/// The same verdict sooner, for many models: looks five times only where the subject's answer is
-/// not the oracle's own. So `ambiguous` counts only what was looked at.
-AgreementReport find_differences(const Model& model, Tracer& subject, Tracer& oracle,
-                                 const Camera& camera);
-
 /// May the subject show primitive `seen` where the oracle, along `ray`, has the hit `expected`?
 using AcceptsId = std::function<bool(const Ray& ray, const Hit& expected, uint32_t seen)>;
+
+/// The same verdict sooner, for many models: looks five times only where the subject's answer is
+/// not the oracle's own. So `ambiguous` counts only what was looked at. Without `accepts`, no other
+/// primitive will do.
+AgreementReport find_differences(const Model& model, Tracer& subject, Tracer& oracle,
+                                 const Camera& camera, const AcceptsId& accepts = {});
 
 /// The same for pictures that are there already, may number the primitives differently, and whose
 /// surfaces may be the model's tolerance apart.

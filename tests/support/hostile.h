@@ -7,7 +7,7 @@ namespace whittle {
 
 /// Less than 1 GB. Under the sanitizers it is theirs more than the program's, so it says nothing.
 inline void expect_little_memory([[maybe_unused]] const Ended& done) {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !defined(WHITTLE_SANITIZED)
   constexpr uint64_t kMost = 1'000'000'000;
   EXPECT_LT(done.peak_memory_bytes, kMost);
 #endif

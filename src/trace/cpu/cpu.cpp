@@ -12,56 +12,69 @@
 namespace whittle {
 namespace {
 
-constexpr int kTile = 16;  ///< pixels; small enough to balance, large enough to cost nothing
-constexpr size_t kProbeChunk = 256;  ///< positions a task
+constexpr int kTileWidth = 8, kTileHeight = 8;  ///< pixels; a tile's rays walk together
+constexpr int kBlock = 32;                      ///< pixels a task; small enough to balance
+constexpr size_t kProbeChunk = 256;             ///< positions a task
+static_assert(kTileWidth * kTileHeight == kTileRays);
 
 /// Every other bit of `i`: a number along the Z-order curve is x in the even bits, y in the odd.
-constexpr int even_bits(int i) {
-  int result = 0;
-  for (int bit = 0; bit < 8; ++bit) result |= (i >> (2 * bit) & 1) << bit;
+constexpr uint32_t even_bits(size_t i) {
+  uint32_t result = 0;
+  for (int bit = 0; bit < 8; ++bit) result |= uint32_t(i >> (2 * bit) & 1) << bit;
   return result;
 }
 
-/// The pixels of a tile in Z order, so that 2, 4, 8 or 16 in a row are a compact patch.
+/// The pixels of a tile in Z order, so that 2, 4 or 8 in a row are a compact patch.
 struct TileOrder {
-  std::array<uint8_t, size_t(kTile) * kTile> x, y;
-  constexpr TileOrder() : x(), y() {
-    for (int i = 0; i < kTile * kTile; ++i) {
-      x[size_t(i)] = uint8_t(even_bits(i));
-      y[size_t(i)] = uint8_t(even_bits(i >> 1));
+  std::array<uint32_t, kTileRays> x, y;
+  std::array<PixelPosition, kTileRays> middle;
+  constexpr TileOrder() : x(), y(), middle() {
+    for (size_t i = 0; i < kTileRays; ++i) {
+      x[i] = even_bits(i);
+      y[i] = even_bits(i >> 1);
+      middle[i] = {float(x[i]) + 0.5f, float(y[i]) + 0.5f};
     }
   }
 };
 constexpr TileOrder kTileOrder;
 
+/// One after the other.
+struct InOrder {
+  std::array<uint32_t, kTileRays> place;
+  constexpr InOrder() : place() {
+    for (uint32_t i = 0; i < kTileRays; ++i) place[i] = i;
+  }
+};
+constexpr InOrder kInOrder;
+
 class CpuTracerImpl final : public CpuTracer {
  public:
   CpuTracerImpl(const Scene& scene, const CellTree& tree, int threads)
-      : scene_(scene), tree_(tree), workers_(threads), scratches_(workers_) {}
+      : scene_(scene), tree_(tree), lanes_(scene, tree), workers_(threads), scratches_(workers_) {}
 
   const char* name() const override { return "cpu"; }
 
   Frame render(const Camera& camera, const Progress& progress) override {
-    Frame frame(camera.width, camera.height);
-    if (tree_.region.is_empty()) return frame;
-    const PixelRect rect = pixels_covering(camera, world_region());
-    rays_beside_ += uint64_t(camera.width) * uint64_t(camera.height) -
-                    uint64_t(rect.width()) * uint64_t(rect.height());
-    const int columns = (rect.width() + kTile - 1) / kTile,
-              rows = (rect.height() + kTile - 1) / kTile;
-    std::atomic<int> done = 0;
-    workers_.for_parts(size_t(columns) * size_t(rows), 1,
-                       [&](size_t first, size_t last, size_t worker) {
-                         LaneScratch& scratch = scratches_.of(worker, scene_, tree_);
-                         for (int tile = int(first); tile < int(last); ++tile) {
-                           trace_tile(camera, rect.x0 + tile % columns * kTile,
-                                      rect.y0 + tile / columns * kTile, rect, frame, scratch);
-                           const int now = ++done;
-                           if (progress && now % columns == 0)
-                             progress(double(now) / (columns * rows));
-                         }
-                       });
-    return frame;
+    return frame_of(camera, progress, [&](const TileRays& rays, size_t, LaneScratch& scratch) {
+      trace_lanes(lanes_, camera, rays.positions(), rays.places.data(), rays.hits, scratch);
+    });
+  }
+
+  Frame record(const Camera& camera) override {
+    records_.clear();
+    records_.resize(size_t(parts(camera.width, kTileWidth)) *
+                    size_t(parts(camera.height, kTileHeight)));
+    return frame_of(camera, {}, [&](const TileRays& rays, size_t tile, LaneScratch& scratch) {
+      trace_lanes(lanes_, camera, rays.positions(), rays.places.data(), rays.hits, scratch,
+                  &records_[tile]);
+    });
+  }
+
+  Frame replay(const Camera& camera) override {
+    return frame_of(camera, {}, [&](const TileRays& rays, size_t tile, LaneScratch& scratch) {
+      retrace_lanes(lanes_, camera, rays.positions(), rays.places.data(), rays.hits, scratch,
+                    records_[tile]);
+    });
   }
 
   void probe(const Camera& camera, std::span<const PixelPosition> positions,
@@ -72,14 +85,15 @@ class CpuTracerImpl final : public CpuTracer {
     }
     workers_.for_parts(
         positions.size(), kProbeChunk, [&](size_t first, size_t last, size_t worker) {
-          trace_lanes(scene_, tree_, camera, positions.subspan(first, last - first),
-                      hits.subspan(first, last - first), scratches_.of(worker, scene_, tree_));
+          LaneScratch& scratch = scratches_.of(worker, lanes_);
+          for (size_t i = first; i < last; i += kTileRays)
+            trace_lanes(lanes_, camera, positions.subspan(i, std::min(kTileRays, last - i)),
+                        kInOrder.place.data(), &hits[i], scratch);
         });
   }
 
   TraceStats stats() const override {
     TraceStats sum;
-    sum.rays = rays_beside_;
     scratches_.for_each([&](const LaneScratch& scratch) {
       sum.rays += scratch.stats.rays;
       sum.cells += scratch.stats.cells;
@@ -91,23 +105,69 @@ class CpuTracerImpl final : public CpuTracer {
   }
 
  private:
-  void trace_tile(const Camera& camera, int x0, int y0, const PixelRect& rect, Frame& frame,
-                  LaneScratch& scratch) {
-    std::array<PixelPosition, size_t(kTile) * kTile> positions;
-    std::array<Hit, size_t(kTile) * kTile> hits;
-    size_t n = 0;
-    const auto in_tile = [&](size_t i, int& x, int& y) {
-      x = x0 + kTileOrder.x[i], y = y0 + kTileOrder.y[i];
-      return x < rect.x1 && y < rect.y1;
+  /// The rays of a tile's pixels, and where their hits go.
+  struct TileRays {
+    size_t count = kTileRays;
+    std::array<PixelPosition, kTileRays> position;
+    std::array<uint32_t, kTileRays> places;
+    Hit* hits;
+
+    TileRays(const PixelRect& tile, Frame& frame) : hits(&frame.at(tile.x0, tile.y0)) {
+      for (size_t i = 0; i < kTileRays; ++i) {
+        position[i] = {kTileOrder.middle[i].x + float(tile.x0),
+                       kTileOrder.middle[i].y + float(tile.y0)};
+        places[i] = kTileOrder.y[i] * uint32_t(frame.width) + kTileOrder.x[i];
+      }
+      if (tile.width() == kTileWidth && tile.height() == kTileHeight) return;
+      count = 0;
+      for (size_t i = 0; i < kTileRays; ++i) {
+        position[count] = position[i], places[count] = places[i];
+        count +=
+            size_t(int(kTileOrder.x[i]) < tile.width() && int(kTileOrder.y[i]) < tile.height());
+      }
+    }
+    std::span<const PixelPosition> positions() const { return std::span(position).first(count); }
+  };
+
+  static int parts(int pixels, int of) { return (pixels + of - 1) / of; }
+
+  /// Calls trace(rays, tile's number, scratch) for all tiles in which something may be seen.
+  template <class Trace>
+  Frame frame_of(const Camera& camera, const Progress& progress, const Trace& trace) {
+    Frame frame = Frame::unfilled(camera.width, camera.height);
+    const PixelRect seen =
+        tree_.region.is_empty() ? PixelRect{} : pixels_covering(camera, world_region());
+    const int columns = parts(camera.width, kBlock), rows = parts(camera.height, kBlock);
+    const int tile_columns = parts(camera.width, kTileWidth);
+    const auto trace_block = [&](int x0, int y0, LaneScratch& scratch) {
+      const int x1 = std::min(x0 + kBlock, camera.width), y1 = std::min(y0 + kBlock, camera.height);
+      for (int y = y0; y < y1; y += kTileHeight)
+        for (int x = x0; x < x1; x += kTileWidth) {
+          const PixelRect tile{x, y, std::min(x + kTileWidth, x1), std::min(y + kTileHeight, y1)};
+          if (tile.x0 < seen.x1 && tile.x1 > seen.x0 && tile.y0 < seen.y1 && tile.y1 > seen.y0)
+            trace(TileRays(tile, frame), size_t(y / kTileHeight * tile_columns + x / kTileWidth),
+                  scratch);
+          else
+            leave_empty(tile, frame, scratch);
+        }
     };
-    int x, y;
-    for (size_t i = 0; i < positions.size(); ++i)
-      if (in_tile(i, x, y)) positions[n++] = {float(x) + 0.5f, float(y) + 0.5f};
-    trace_lanes(scene_, tree_, camera, std::span(positions).first(n), std::span(hits).first(n),
-                scratch);
-    n = 0;
-    for (size_t i = 0; i < positions.size(); ++i)
-      if (in_tile(i, x, y)) frame.at(x, y) = hits[n++];
+    std::atomic<int> done = 0;
+    workers_.for_parts(size_t(columns) * size_t(rows), 1,
+                       [&](size_t first, size_t last, size_t worker) {
+                         LaneScratch& scratch = scratches_.of(worker, lanes_);
+                         for (int block = int(first); block < int(last); ++block) {
+                           trace_block(block % columns * kBlock, block / columns * kBlock, scratch);
+                           const int now = ++done;
+                           if (progress && now % columns == 0)
+                             progress(double(now) / (columns * rows));
+                         }
+                       });
+    return frame;
+  }
+
+  static void leave_empty(const PixelRect& tile, Frame& frame, LaneScratch& scratch) {
+    for (int y = tile.y0; y < tile.y1; ++y) std::fill_n(&frame.at(tile.x0, y), tile.width(), Hit{});
+    scratch.stats.rays += uint64_t(tile.width()) * uint64_t(tile.height());
   }
 
   Box world_region() const {
@@ -116,9 +176,10 @@ class CpuTracerImpl final : public CpuTracer {
 
   const Scene& scene_;
   const CellTree& tree_;
-  uint64_t rays_beside_ = 0;  ///< rays of pixels that cannot see the region
+  const LaneScene lanes_;
   Workers workers_;
   PerWorker<LaneScratch> scratches_;
+  std::vector<TileRecord> records_;  ///< by tile, of the picture that was recorded
 };
 
 }  // namespace

@@ -17,7 +17,8 @@ namespace whittle {
 /// Work done since the tracer was made.
 struct TraceStats {
   uint64_t rays = 0;
-  uint64_t cells = 0;          ///< cells visited, nodes and leaves
+  uint64_t cells = 0;          ///< cells visited, nodes and leaves; where rays walk together, once
+                               ///< for each that is still on its way
   uint64_t leaves = 0;         ///< leaves solved
   uint64_t literals = 0;       ///< half-spaces intersected
   uint64_t disagreements = 0;  ///< neighbouring cells that disagree on a point between them: none
@@ -27,6 +28,12 @@ struct TraceStats {
 class CpuTracer : public Tracer {
  public:
   virtual TraceStats stats() const = 0;
+
+  /// As render(), and keeps for every ray that hits something in which leaf that is.
+  virtual Frame record(const Camera& camera) = 0;
+  /// The same frame from what record() kept of the same camera: no ray has to look for its leaf.
+  /// The time that this takes is the limit of what a better walk could reach.
+  virtual Frame replay(const Camera& camera) = 0;
 };
 std::unique_ptr<CpuTracer> make_cpu_tracer(const Scene& scene, const CellTree& cells,
                                            int threads = 0);

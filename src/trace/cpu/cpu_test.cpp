@@ -239,6 +239,25 @@ TEST(Cpu, ProbesAndPicturesSeeTheSame) {
   EXPECT_TRUE(frame.at(30, 21).hit());
 }
 
+TEST(Cpu, WhatWasRecordedIsSeenAgain) {
+  for (const uint64_t seed : {2, 9}) {
+    const Model model = model_of(random_tree(seed, {.primitives = 30}));
+    const Scene scene = *lower(model);
+    const CellTree cells = subdivide(scene, {});
+    const auto tracer = make_cpu_tracer(scene, cells);
+    for (const Camera& camera : cameras_for(model, 91, 70)) {
+      const Frame rendered = tracer->render(camera, {}), recorded = tracer->record(camera);
+      const uint64_t visits = tracer->stats().cells;
+      const Frame replayed = tracer->replay(camera);
+      EXPECT_EQ(tracer->stats().cells, visits) << "no ray walks";
+      for (const Frame* frame : {&recorded, &replayed})
+        EXPECT_EQ(std::memcmp(frame->hits.data(), rendered.hits.data(),
+                              rendered.hits.size() * sizeof(Hit)),
+                  0);
+    }
+  }
+}
+
 TEST(Cpu, ARayMayRunInAPlaneFromItsEyeOn) {
   Traced half("halfspace(n = [0, 0, 1], d = 2);");
   EXPECT_FALSE(half.hit({3, 0, 2}, {4, 0, 2}).hit()) << "as far as the region reaches";

@@ -1,5 +1,5 @@
-// Rays in vector lanes: as many rays at once as a vector holds doubles, walked through the cells
-// together. The instruction set is chosen at run time; every one gives the same bits.
+// Rays in vector lanes: tiles of rays that walk through the cells together, as many rays at once as
+// a vector holds doubles. The instruction set is chosen at run time; every one gives the same bits.
 #pragma once
 
 #include <span>
@@ -11,22 +11,67 @@
 
 namespace whittle {
 
+/// Which arithmetic a half-space gets along a ray: by itself alone, so that it is one polynomial in
+/// every cell.
+enum class AlongKind : uint64_t { kPlane, kSphere, kQuadric, kSmallQuadric };
+
+/// A half-space as the lanes read it, a cache line each. Quadrics have the rest in the scene.
+struct alignas(64) LaneHalfSpace {
+  Vec3 center;
+  Vec3 v;  ///< plane: Quadric::b; sphere: v.x is the scale
+  double c = 0;
+  AlongKind kind = AlongKind::kPlane;
+};
+
+/// A scene and its cells, prepared for rays. Both must outlive it.
+struct LaneScene {
+  LaneScene(const Scene& scene, const CellTree& tree);
+
+  const Scene& scene;
+  const CellTree& tree;
+  double edge;                             ///< the longest of the region
+  double together;                         ///< crossings closer than this happen together
+  Box clip;                                ///< rays are cut to it: the region and half the margin
+  std::vector<LaneHalfSpace> half_spaces;  ///< by number
+  /// False: every ray is solved by itself, by LeafSolver, whose answers lanes must have. For tests.
+  bool solves_in_lanes = true;
+};
+
+inline constexpr size_t kMaxLanes = 8;
+inline constexpr size_t kTileRays = 64;  ///< rays that walk together
+
 /// What one thread needs besides the scene and the cells.
 struct LaneScratch {
-  LaneScratch(const Scene& scene, const CellTree& cells) : refiner(cells), solver(scene) {}
+  explicit LaneScratch(const LaneScene& scene) : refiner(scene.tree), solver(scene.scene) {}
 
   RefinerLease refiner;
   LeafSolver solver;
-  std::vector<double> along;         ///< per literal of a leaf: four vectors, f along the rays
-  std::vector<LaneSigns> signs;      ///< per literal
-  std::vector<LiteralOnRay> on_ray;  ///< per literal, of one ray
+  // Per literal of the leaf at hand.
+  std::vector<LaneSigns> signs;      ///< one for each packet
+  std::vector<LiteralOnRay> on_ray;  ///< of one ray
   TraceStats stats;
 };
 
-/// The hits of the rays through `positions`, which had better be close to one another, in order.
-/// hits.size() == positions.size().
-void trace_lanes(const Scene& scene, const CellTree& cells, const Camera& camera,
-                 std::span<const PixelPosition> positions, std::span<Hit> hits,
-                 LaneScratch& scratch);
+/// Rays of a packet that meet something in a leaf: how they come there, and between which t.
+struct LeafRecord {
+  CellLink leaf;
+  uint32_t packet;
+  uint32_t lanes, known, solid;
+  alignas(64) double t0[kMaxLanes], t1[kMaxLanes];
+};
+/// Of the rays of one tile.
+using TileRecord = std::vector<LeafRecord>;
+
+/// The hits of the rays through `positions`, at most kTileRays, which had better be close to one
+/// another. That of positions[i] is written to hits[places[i]]. If there is a record, it is filled.
+void trace_lanes(const LaneScene& scene, const Camera& camera,
+                 std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
+                 LaneScratch& scratch, TileRecord* record = nullptr);
+
+/// The same hits from what trace_lanes() recorded with the same instruction set: no walk, only the
+/// leaves in which something is met.
+void retrace_lanes(const LaneScene& scene, const Camera& camera,
+                   std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
+                   LaneScratch& scratch, const TileRecord& record);
 
 }  // namespace whittle

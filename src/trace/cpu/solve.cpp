@@ -154,11 +154,29 @@ Change LeafSolver::describe(const Leaf& leaf, std::span<const LeafLiteral> liter
     for (const Crossing& crossing : group)
       if (literals[crossing.literal].literal >> 1 == face.literal >> 1) literal = crossing.literal;
   }
-  const HalfSpace& h = scene_.half_spaces[literals[literal].literal >> 1];
-  const Vec3 gradient = normalize(K::quadric_half_gradient(h.f, point - h.center));
-  // The gradient points out of the half-space; that is out of the solid too if both were entered
-  // or both left.
-  return {t, id, bool(is_inside_[literal]) == solid_after ? gradient : -gradient};
+  // Out of the half-space is out of the solid too if both were entered or both left.
+  return {t, id, literals[literal].literal >> 1, bool(is_inside_[literal]) != solid_after};
+}
+
+uint32_t LeafSolver::owner_of(const Leaf& leaf, uint64_t state, uint32_t literal) {
+  const uint64_t key = (reinterpret_cast<uintptr_t>(&leaf) >> 3) ^ state * 5 ^ literal * 37;
+  KnownOwner& known = known_owners_[key % kKnownOwners];
+  if (known.leaf == &leaf && known.state == state && known.literal == literal) return known.id;
+  const std::span<const LeafLiteral> literals = leaf.literals();
+  const bool by_literals = std::ranges::all_of(leaf.tokens(), [&](Token token) {
+    return token.is_group() || std::ranges::any_of(literals, [&](const LeafLiteral& l) {
+             return l.literal >> 1 == scene_.faces[token.payload()].literal >> 1;
+           });
+  });
+  uint32_t id = kSharedOwner;
+  if (by_literals) {
+    is_inside_.resize(literals.size());
+    for (uint32_t i = 0; i < literals.size(); ++i) is_inside_[i] = state >> i & 1;
+    const Crossing crossing{0, literal};
+    id = scene_.units[owner(leaf, literals, Vec3{}, {&crossing, 1}).unit].id;
+  }
+  known = {&leaf, state, literal, id};
+  return id;
 }
 
 const Face& LeafSolver::owner(const Leaf& leaf, std::span<const LeafLiteral> literals, Vec3 point,

@@ -1,6 +1,7 @@
 // Solves one leaf along one ray, once it is known how each literal behaves there.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -19,15 +20,28 @@ enum class Inside : int8_t { kNo, kYes, kUnknown };
 /// Where the solid changes along a ray.
 struct Change {
   double t;
-  uint32_t id;  ///< owner primitive
-  Vec3 normal;  ///< unit, outward from the solid
+  uint32_t id;          ///< owner primitive
+  uint32_t half_space;  ///< whose surface is there
+  bool turned;          ///< the solid is on the other side of it than the half-space
 };
 
-/// A half-space on the way from t0 to t1 of several rays, one bit a ray.
-struct LaneSigns {
-  uint32_t inside = 0;   ///< the ray is inside the half-space at t0
-  uint32_t changes = 0;  ///< and not at t1, or the reverse: one crossing between
-  uint32_t bends = 0;    ///< it leaves and comes back (or enters and leaves): two crossings
+/// A half-space on the way from t0 to t1 of several rays, one bit a ray. One word: what is written
+/// in parts and read as a whole is waited for.
+class LaneSigns {
+ public:
+  LaneSigns() = default;
+  LaneSigns(uint32_t inside, uint32_t changes, uint32_t bends)
+      : word_(inside | changes << 8 | bends << 16) {}
+
+  /// The ray is inside the half-space at t0.
+  uint32_t inside() const { return word_ & 0xff; }
+  /// And not at t1, or the reverse: one crossing between.
+  uint32_t changes() const { return word_ >> 8 & 0xff; }
+  /// It leaves and comes back (or enters and leaves): two crossings.
+  uint32_t bends() const { return word_ >> 16; }
+
+ private:
+  uint32_t word_ = 0;
 };
 
 /// The same for one ray.
@@ -50,6 +64,11 @@ class LeafSolver {
   /// happen together. `on_ray` has an entry for every literal of the leaf.
   bool first_change(CellKind kind, const Leaf& leaf, std::span<const LiteralOnRay> on_ray,
                     const LocalRay& ray, double t0, double t1, Inside& inside, Change& change);
+
+  /// The owner (id) of a change by the crossing of one literal alone, in a leaf with a truth table;
+  /// kSharedOwner if it depends on more than `state`, bit i of which says "inside literal i" after
+  /// the crossing.
+  uint32_t owner_of(const Leaf& leaf, uint64_t state, uint32_t literal);
 
   /// Times that a leaf differed at t0 from what its neighbour had said.
   uint64_t disagreements = 0;
@@ -76,7 +95,16 @@ class LeafSolver {
   const Face& owner(const Leaf& leaf, std::span<const LeafLiteral> literals, Vec3 point,
                     std::span<const Crossing> group) const;
 
+  /// What owner_of() has found out; leaves are asked the same again and again.
+  struct KnownOwner {
+    const Leaf* leaf = nullptr;
+    uint64_t state = 0;
+    uint32_t literal = 0, id = 0;
+  };
+  static constexpr size_t kKnownOwners = 256;
+
   const Scene& scene_;
+  std::array<KnownOwner, kKnownOwners> known_owners_;
   const double together_;            ///< crossings closer than this happen together
   std::vector<uint8_t> is_inside_;   ///< by literal: inside the half-space itself, at this point
   std::vector<Crossing> crossings_;  ///< in (t0, t1], sorted

@@ -60,12 +60,14 @@ Span sphere_span(double radius, const Line& line) {
 /// One nappe of a cone, which is convex.
 Span cone_span(const Surface& s, bool other_nappe, const Line& given) {
   // From where the ray passes the axis, if that is next to the primitive: a long thin cylinder is
-  // small there, however far its middle is.
+  // small there, however far its middle is. Another primitive's wall may go on beyond this one's
+  // ends, which a ray square to the axis meets far away or never: then not from there.
   const double across = given.d.x * given.d.x + given.d.y * given.d.y;
   double moved = across > 0 ? -(given.o.x * given.d.x + given.o.y * given.d.y) / across : 0;
   if (given.d.z != 0) {
     const double t0 = (s.z0 - given.o.z) / given.d.z, t1 = (s.z1 - given.o.z) / given.d.z;
-    moved = std::clamp(moved, std::min(t0, t1), std::max(t0, t1));
+    const double between = std::clamp(moved, std::min(t0, t1), std::max(t0, t1));
+    if (std::fabs(between) < std::fabs(moved)) moved = between;
   }
   const Line line = {given.at(moved), given.d};
   const Vec3 o = line.o, d = line.d;

@@ -179,6 +179,20 @@ TEST(RaySpan, AlongALineOfTheCone) {
   EXPECT_TRUE(span_of(Cylinder{.h = 2, .r1 = 1, .r2 = 0}, {1.5, 0, 0}, {-0.5, 0, 1}).is_empty());
 }
 
+// A wall that goes on as another cylinder's, seen square to the axis but for rounding: where the
+// ray meets the first cylinder's height is far away, and nothing may be taken from there.
+TEST(RaySpan, OfAWallBeyondTheOneItIs) {
+  Placed placed;
+  placed.set(Cylinder{.h = 1, .r1 = 2, .r2 = 2, .center = false, .facets = 0});
+  std::vector<Instance> instances(2, placed.instance);
+  instances[1].world_from_object.translation = {0, 0, 3};
+  const Surfaces surfaces = name_surfaces(placed.model, instances);
+  ASSERT_EQ(surfaces.faces_of(1)[0].surface, surfaces.faces_of(0)[0].surface);
+  const Span span = ray_span(surfaces, 1, {-5, 0, 3.5}, {1, 0, 1e-17});
+  EXPECT_DOUBLE_EQ(span.t0, 3);
+  EXPECT_DOUBLE_EQ(span.t1, 7);
+}
+
 TEST(RaySpan, HalfspaceIsHalfALine) {
   const Span into = span_of(Halfspace{.n = {0, 0, 2}, .d = 2}, {0, 0, 5}, {0, 0, -1});
   EXPECT_EQ(into.t0, 4);

@@ -1,0 +1,18 @@
+// The looks there are, and what defines them to others.
+#pragma once
+
+namespace whittle {
+
+enum class Style {
+  kStudio,    ///< soft lights fixed to the camera, computed in linear light
+  kBlinn,     ///< one positional light, Blinn highlight; values are display values, as in the paper
+  kOpenscad,  ///< what OpenSCAD's --render draws; it knows no color()
+};
+
+/// kBlinn: display value = kBlinnAmbient * base + kBlinnDiffuse * base * max(n.l, 0) +
+/// kBlinnSpecular * max(n.h, 0)^16, the last only where n.l > 0. Chosen so that a white base that
+/// faces the light reaches 0.9, and clips only in the middle of its highlight.
+inline constexpr float kBlinnAmbient = 0.2f, kBlinnDiffuse = 0.7f, kBlinnSpecular = 0.3f;
+inline constexpr int kBlinnExponent = 16;
+
+}  // namespace whittle

@@ -1,0 +1,225 @@
+#include "subdivide/wide.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace whittle {
+namespace {
+
+/// Operands that are dealt out by one thread in one go.
+constexpr size_t kChunk = 4096;
+
+/// With more than this, on the average, for each operand, boxes do not tell them apart.
+constexpr size_t kMostPartsEach = 12;
+
+/// Of an operand: outside of the box its value is known.
+struct Reach {
+  Box box;
+  bool outside;  ///< that value
+};
+
+/// One operand of the outermost group, and the tokens that it has.
+struct Operand {
+  uint32_t first, count;
+};
+
+Reach reach_of(const Scene& scene, Token token) {
+  const uint32_t unit =
+      token.kind() == TokenKind::kFace ? scene.faces[token.payload()].unit : token.payload();
+  return {scene.units[unit].outer, token.negated()};
+}
+
+/// A conjunction is false outside of what its operands that are false outside have in common; if
+/// there are none, it is true outside of all. A disjunction the other way round.
+class Fold {
+ public:
+  explicit Fold(TokenKind kind) : absorbing_(kind == TokenKind::kOr) {}
+
+  void add(const Reach& operand) {
+    if (operand.outside == absorbing_) {
+      common_ = any_ ? intersect(common_, operand.box) : operand.box;
+      any_ = true;
+    } else {
+      all_ = unite(all_, operand.box);
+    }
+  }
+  Reach result() const { return any_ ? Reach{common_, absorbing_} : Reach{all_, !absorbing_}; }
+
+ private:
+  bool absorbing_, any_ = false;
+  Box common_, all_;
+};
+
+Reach reach_of(const Scene& scene, std::span<const Token> operand) {
+  if (!operand[0].is_group()) return reach_of(scene, operand[0]);
+  struct Open {
+    size_t end;
+    Fold fold;
+  };
+  std::vector<Open> open;
+  size_t i = 0;
+  while (true) {
+    const Token token = operand[i];
+    if (token.is_group() && !token.is_pass())
+      open.push_back({i + token.payload(), Fold(token.kind())});
+    else if (!token.is_pass())
+      open.back().fold.add(reach_of(scene, token));
+    ++i;
+    while (open.back().end == i) {
+      const Reach done = open.back().fold.result();
+      open.pop_back();
+      if (open.empty()) return done;
+      open.back().fold.add(done);
+    }
+  }
+}
+
+/// The outermost group that is one, and no left-over of a group that lost all but one operand.
+std::span<const Token> without_passes(std::span<const Token> formula) {
+  while (formula[0].is_pass()) formula = formula.subspan(1);
+  return formula;
+}
+
+std::vector<Operand> operands_of(std::span<const Token> formula) {
+  std::vector<Operand> operands;
+  for (uint32_t i = 1; i < formula.size();) {
+    if (formula[i].is_pass()) {
+      ++i;
+      continue;
+    }
+    const uint32_t count = formula[i].is_group() ? formula[i].payload() : 1;
+    operands.push_back({i, count});
+    i += count;
+  }
+  return operands;
+}
+
+/// First and last part along an axis that an interval meets.
+struct Range {
+  uint32_t first, last;
+};
+Range range_of(const std::vector<double>& cuts, double lo, double hi) {
+  const auto inner_begin = cuts.begin() + 1, inner_end = cuts.end() - 1;
+  return {uint32_t(std::lower_bound(inner_begin, inner_end, lo) - inner_begin),
+          uint32_t(std::upper_bound(inner_begin, inner_end, hi) - inner_begin)};
+}
+
+/// What some operands in a row give to the parts: numbers of operands, part by part.
+struct Dealt {
+  std::vector<uint32_t> first;  ///< of each part, and the end
+  std::vector<uint32_t> operands;
+};
+
+}  // namespace
+
+size_t SplitGrid::size() const {
+  return (cuts[0].size() - 1) * (cuts[1].size() - 1) * (cuts[2].size() - 1);
+}
+
+Box SplitGrid::part(size_t number) const {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& c = cuts[size_t(axis)];
+    const size_t along = number % (c.size() - 1);
+    number /= c.size() - 1;
+    box.lo[axis] = c[along], box.hi[axis] = c[along + 1];
+  }
+  return box;
+}
+
+SplitGrid make_grid(const Box& box, int splits, SplitRule rule, uint32_t depth) {
+  SplitGrid grid;
+  for (int axis = 0; axis < 3; ++axis) grid.cuts[size_t(axis)] = {box.lo[axis], box.hi[axis]};
+  for (int i = 0; i < splits; ++i) {
+    const int axis = split_axis(grid.part(0).size(), rule, depth + uint32_t(i));
+    grid.axes.push_back(axis);
+    std::vector<double>& cuts = grid.cuts[size_t(axis)];
+    std::vector<double> finer;
+    for (size_t k = 0; k + 1 < cuts.size(); ++k) {
+      finer.push_back(cuts[k]);
+      finer.push_back((cuts[k] + cuts[k + 1]) * 0.5);
+    }
+    finer.push_back(cuts.back());
+    cuts = std::move(finer);
+  }
+  return grid;
+}
+
+size_t operand_count(std::span<const Token> formula) {
+  formula = without_passes(formula);
+  return formula[0].is_group() ? operands_of(formula).size() : 0;
+}
+
+std::vector<Formula> deal_operands(const Scene& scene, std::span<const Token> formula,
+                                   const SplitGrid& grid, double margin, const Loop& loop) {
+  formula = without_passes(formula);
+  const TokenKind kind = formula[0].kind();
+  const std::vector<Operand> operands = operands_of(formula);
+  const size_t parts = grid.size(), chunks = (operands.size() + kChunk - 1) / kChunk;
+  std::vector<Dealt> dealt(chunks);
+  std::atomic<size_t> total = 0;
+  const auto too_many = [&] { return total > kMostPartsEach * operands.size(); };
+
+  loop(chunks, 1, [&](size_t first, size_t last, size_t) {
+    std::vector<std::array<Range, 3>> ranges;
+    for (size_t chunk = first; chunk < last && !too_many(); ++chunk) {
+      const size_t begin = chunk * kChunk, end = std::min(begin + kChunk, operands.size());
+      Dealt& mine = dealt[chunk];
+      mine.first.assign(parts + 1, 0);
+      ranges.clear();
+      const auto for_parts_of = [&](const std::array<Range, 3>& r, auto&& visit) {
+        const size_t nx = grid.cuts[0].size() - 1, ny = grid.cuts[1].size() - 1;
+        for (size_t z = r[2].first; z <= r[2].last; ++z)
+          for (size_t y = r[1].first; y <= r[1].last; ++y)
+            for (size_t x = r[0].first; x <= r[0].last; ++x) visit((z * ny + y) * nx + x);
+      };
+      for (size_t i = begin; i < end; ++i) {
+        Reach reach = reach_of(scene, formula.subspan(operands[i].first, operands[i].count));
+        // What settles the whole group where it does not reach must be known everywhere.
+        if (reach.outside == (kind == TokenKind::kOr)) reach.box = Box::everything();
+        std::array<Range, 3> r;
+        size_t count = 1;
+        for (int axis = 0; axis < 3; ++axis) {
+          r[size_t(axis)] = range_of(grid.cuts[size_t(axis)], reach.box.lo[axis] - margin,
+                                     reach.box.hi[axis] + margin);
+          // An empty box meets nothing.
+          if (r[size_t(axis)].first > r[size_t(axis)].last) r[size_t(axis)] = {1, 0};
+          count *= r[size_t(axis)].last + 1 - r[size_t(axis)].first;
+        }
+        total += count;
+        ranges.push_back(r);
+        for_parts_of(r, [&](size_t part) { ++mine.first[part + 1]; });
+        if (too_many()) return;
+      }
+      for (size_t part = 0; part < parts; ++part) mine.first[part + 1] += mine.first[part];
+      mine.operands.resize(mine.first[parts]);
+      std::vector<uint32_t> next(mine.first.begin(), mine.first.end() - 1);
+      for (size_t i = begin; i < end; ++i)
+        for_parts_of(ranges[i - begin],
+                     [&](size_t part) { mine.operands[next[part]++] = uint32_t(i); });
+    }
+  });
+  if (too_many()) return {};
+
+  std::vector<Formula> result(parts);
+  loop(parts, 1, [&](size_t first, size_t last, size_t) {
+    for (size_t part = first; part < last; ++part) {
+      Formula& out = result[part];
+      size_t tokens = 1;
+      for (const Dealt& chunk : dealt)
+        for (uint32_t k = chunk.first[part]; k < chunk.first[part + 1]; ++k)
+          tokens += operands[chunk.operands[k]].count;
+      out.reserve(tokens);
+      out.push_back(Token::make(kind, uint32_t(tokens)));
+      for (const Dealt& chunk : dealt)
+        for (uint32_t k = chunk.first[part]; k < chunk.first[part + 1]; ++k) {
+          const Operand& operand = operands[chunk.operands[k]];
+          out.insert(out.end(), formula.begin() + operand.first,
+                     formula.begin() + operand.first + operand.count);
+        }
+    }
+  });
+  return result;
+}
+
+}  // namespace whittle

@@ -1,0 +1,43 @@
+#include "model/instances.h"
+#include "subdivide/subdivide.h"
+#include "trace/cpu/lanes.h"
+
+namespace whittle {
+namespace {
+
+/// Curved surfaces whose radius is below this share of the region's longest edge get the arithmetic
+/// for small ones. Without it a surface is blurred by its share's inverse times what rounding does
+/// to the region.
+constexpr double kSmall = 1.0 / 64;
+
+LaneHalfSpace in_lanes(const HalfSpace& h, double edge) {
+  LaneHalfSpace result{h.center, h.f.b, h.f.c, AlongKind::kPlane};
+  if (h.is_plane()) return result;
+  // As f is scaled, 2 |c| is the radius, or the least one.
+  if (2 * std::fabs(h.f.c) < kSmall * edge) {
+    result.kind = AlongKind::kSmallQuadric;
+  } else if (h.kind == SurfaceKind::kSphere) {
+    result.kind = AlongKind::kSphere;
+    result.v = h.f.diag;
+  } else {
+    result.kind = AlongKind::kQuadric;
+  }
+  return result;
+}
+
+}  // namespace
+
+LaneScene::LaneScene(const Scene& scene_, const CellTree& tree_)
+    : scene(scene_),
+      tree(tree_),
+      edge(max_component(scene.region.size())),
+      together(
+          whittle::together({scene.region.lo + scene.origin, scene.region.hi + scene.origin})) {
+  const double half_margin = 0.5 * kCellMargin * edge;
+  const Vec3 grown = {half_margin, half_margin, half_margin};
+  clip = {tree.region.lo - grown, tree.region.hi + grown};
+  half_spaces.reserve(scene.half_spaces.size());
+  for (const HalfSpace& h : scene.half_spaces) half_spaces.push_back(in_lanes(h, edge));
+}
+
+}  // namespace whittle

@@ -1,0 +1,432 @@
+// Solves one leaf along the rays of a packet. Included once for every instruction set.
+#if defined(WHITTLE_LEAF_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHITTLE_LEAF_INL_H
+#undef WHITTLE_LEAF_INL_H
+#else
+#define WHITTLE_LEAF_INL_H
+#endif
+
+#include <bit>
+#include <cmath>
+#include <type_traits>
+
+#include "trace/cpu/tile-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whittle {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// This far ahead a ray from an eye on a surface looks where it goes (a tip has no slope); a share
+/// of the region's longest edge.
+constexpr double kAhead = 1e-9;
+
+/// Packets that pass a cell, and between which t.
+struct Visitors {
+  size_t count = 0;
+  uint32_t packet[kMostPackets];
+  uint32_t lanes[kMostPackets];  ///< of the packet, a bit each
+  alignas(64) double t0[kTileRays], t1[kTileRays];
+
+  /// Without any lanes: nothing.
+  HWY_INLINE void add(size_t number, uint32_t passing, Real start, Real end) {
+    packet[count] = uint32_t(number);
+    lanes[count] = passing;
+    hn::Store(start, D(), t0 + count * Tile::lanes());
+    hn::Store(end, D(), t1 + count * Tile::lanes());
+    count += passing != 0;
+  }
+};
+
+/// What cells do to rays. Each step is done for all visitors before the next one, so that none
+/// waits for another's arithmetic.
+class LeavesInLanes {
+ public:
+  LeavesInLanes(const LaneScene& scene, Tile& tile, LaneScratch& scratch)
+      : scene_(scene), tile_(tile), scratch_(scratch) {
+    make_room(kTableLiterals);
+  }
+
+  Visitors visitors;
+
+  /// Takes the visitors through a cell that is no node. Some may meet something (Tile::hit).
+  void pass(CellLink cell);
+
+ private:
+  /// A half-space at one end of the way through a cell.
+  struct End {
+    Real value;
+    Bool inside, falls;
+  };
+  template <AlongKind kKind>
+  L::AlongRay along(uint32_t half_space, size_t packet) const;
+  L::AlongRay along(uint32_t half_space, size_t packet) const;
+  LaneSigns signs_between(size_t packet, const L::AlongRay& f, bool plane, Real t0, Real t1) const;
+  static End end_at(L::AlongRay f, Real t);
+  Bool is_at_eye(Real at_eye, Real t, const End& end) const;
+  End end_at_eye(Real at_eye, L::AlongRay f, Real t, End end) const;
+
+  void solve(CellKind kind, const Leaf& leaf);
+  template <AlongKind kKind>
+  void look_at(const LeafLiteral& literal, LaneSigns* signs_of, uint32_t settles,
+               uint32_t settling);
+  void find_roots(std::span<const LeafLiteral> literals);
+  uint32_t solve_in_lanes(const Leaf& leaf, std::span<const LeafLiteral> literals, size_t visitor);
+  uint32_t find_owners(const Leaf& leaf, size_t packet, uint32_t lanes, Word state,
+                       uint32_t literal);
+  void solve_lane(CellKind kind, const Leaf& leaf, size_t visitor, uint32_t lane);
+  void becomes(size_t packet, uint32_t lanes, uint32_t solid) {
+    tile_.known[packet] |= uint8_t(lanes);
+    tile_.solid[packet] = uint8_t((tile_.solid[packet] & ~lanes) | (solid & lanes));
+  }
+
+  void make_room(size_t literals) {
+    const size_t size = literals * kMostPackets;
+    if (scratch_.signs.size() < size) scratch_.signs.resize(size);
+  }
+  LaneSigns& signs(size_t literal, size_t visitor) {
+    return scratch_.signs[literal * kMostPackets + visitor];
+  }
+
+  const LaneScene& scene_;
+  Tile& tile_;
+  LaneScratch& scratch_;
+
+  /// Crossings of all visitors, those of each one after the other.
+  size_t root_count_ = 0;
+  struct Root {
+    uint8_t literal, visitor;
+    uint8_t lanes, rising;
+  };
+  Root roots_[2 * kTableLiterals * kMostPackets];
+  alignas(64) double root_t_[2 * kTableLiterals * kTileRays];
+  // By visitor.
+  uint32_t open_[kMostPackets], quiet_[kMostPackets], opposite_[kMostPackets];
+  uint32_t waiting_[kMostPackets];  ///< visitors that are open
+  size_t waiting_count_ = 0;
+  uint32_t first_root_[kMostPackets + 1];
+};
+
+inline void LeavesInLanes::pass(CellLink cell) {
+  switch (cell.kind()) {
+    case CellKind::kIgnored:
+      for (size_t i = 0; i < visitors.count; ++i)
+        tile_.known[visitors.packet[i]] &= uint8_t(~visitors.lanes[i]);
+      return;
+    case CellKind::kEmpty:
+    case CellKind::kFull:
+      for (size_t i = 0; i < visitors.count; ++i) {
+        const uint32_t packet = visitors.packet[i], lanes = visitors.lanes[i];
+        const uint32_t here = cell.kind() == CellKind::kFull ? lanes : 0;
+        // A surface on a cell's side is a literal on both sides of it, so this cannot be a change.
+        scratch_.stats.disagreements +=
+            uint32_t(std::popcount((tile_.solid[packet] ^ here) & tile_.known[packet] & lanes));
+        becomes(packet, lanes, here);
+      }
+      return;
+    default: {
+      const Leaf& leaf = cell.leaf();
+      make_room(leaf.literal_count);
+      solve(cell.kind(), leaf);
+    }
+  }
+}
+
+/// f of one half-space along all rays of a packet. Always the same numbers, so it can be asked
+/// again rather than stored.
+template <AlongKind kKind>
+HWY_INLINE L::AlongRay LeavesInLanes::along(uint32_t half_space, size_t packet) const {
+  const LaneHalfSpace& h = scene_.half_spaces[half_space];
+  const L::Vec3 origin = tile_.origin(packet), d = tile_.direction(packet);
+  const L::Vec3 o = {origin.x - set(h.center.x), origin.y - set(h.center.y),
+                     origin.z - set(h.center.z)};
+  if (kKind == AlongKind::kPlane) return L::plane_along_ray(set(h.v), o, d);
+  if (kKind == AlongKind::kSphere) return L::sphere_along_ray(set(h.v.x), set(h.c), o, d);
+  const auto& q = scene_.scene.half_spaces[half_space].f;
+  const L::Quadric f = {set(q.diag), set(q.off), set(q.b), set(q.c)};
+  return kKind == AlongKind::kQuadric ? L::quadric_along_ray(f, o, d)
+                                      : L::small_quadric_along_ray(f, o, d);
+}
+
+/// Calls `visit` with the kind of a half-space as a constant.
+template <class Visit>
+HWY_INLINE auto with_kind(AlongKind kind, const Visit& visit) {
+  switch (kind) {
+    case AlongKind::kPlane:
+      return visit(std::integral_constant<AlongKind, AlongKind::kPlane>());
+    case AlongKind::kSphere:
+      return visit(std::integral_constant<AlongKind, AlongKind::kSphere>());
+    case AlongKind::kQuadric:
+      return visit(std::integral_constant<AlongKind, AlongKind::kQuadric>());
+    default:
+      return visit(std::integral_constant<AlongKind, AlongKind::kSmallQuadric>());
+  }
+}
+
+HWY_INLINE L::AlongRay LeavesInLanes::along(uint32_t half_space, size_t packet) const {
+  return with_kind(scene_.half_spaces[half_space].kind,
+                   [&](auto kind) { return along<kind.value>(half_space, packet); });
+}
+
+/// Where f changes its sign between t0 and t1. Neighbouring cells evaluate the same numbers at
+/// the t they share, so each change of sign is found in one of them, and in one only.
+HWY_INLINE LaneSigns LeavesInLanes::signs_between(size_t packet, const L::AlongRay& f, bool plane,
+                                                  Real t0, Real t1) const {
+  End start = end_at(f, t0), end = end_at(f, t1);
+  if (HWY_UNLIKELY(tile_.from_within)) {
+    const Real at_eye = tile_.at_eye(packet);
+    start = end_at_eye(at_eye, f, t0, start);
+    end = end_at_eye(at_eye, f, t1, end);
+    // A plane through the eye is not crossed again, and one that the ray runs in not at all: its
+    // side is that of the way's end.
+    const Bool in_plane = hn::And(f.a == set(0), is_at_eye(at_eye, t0, start));
+    start.inside = hn::Or(hn::And(in_plane, end.inside), hn::AndNot(in_plane, start.inside));
+  }
+  const uint32_t inside = bits(start.inside), changes = inside ^ bits(end.inside);
+  if (plane) return {inside, changes, 0};
+  // In and out again, or out and in: only if f turns back between, and goes beyond zero there.
+  const Real bend = L::select(start.inside, set(0) - f.a, f.a);
+  const Bool turns = hn::Xor(start.falls, end.falls);
+  const Bool bends = hn::And(hn::And(bend > set(0), turns), f.h * f.h > f.a * f.k);
+  return {inside, changes, bits(bends) & ~changes};
+}
+
+HWY_INLINE LeavesInLanes::End LeavesInLanes::end_at(L::AlongRay f, Real t) {
+  const Real value = L::along_value(f, t);
+  return {value, value <= set(0), f.a * (t - f.about) + f.h < set(0)};
+}
+
+/// Is this end at the eye, and the eye on the half-space's surface?
+HWY_INLINE Bool LeavesInLanes::is_at_eye(Real at_eye, Real t, const End& end) const {
+  return hn::And(hn::Le(t, at_eye), hn::Abs(end.value) <= set(kOnSurface * scene_.edge));
+}
+
+/// Who stands on a surface has passed it: there the side is that of the way just ahead, and not
+/// rounding's. Elsewhere nothing changes.
+HWY_INLINE LeavesInLanes::End LeavesInLanes::end_at_eye(Real at_eye, L::AlongRay f, Real t,
+                                                        End end) const {
+  const Bool on_surface = is_at_eye(at_eye, t, end);
+  const Bool falls = f.a * (t - f.about + set(kAhead * scene_.edge)) + f.h < set(0);
+  const auto choose = [&](Bool there, Bool else_there) {
+    return hn::Or(hn::And(on_surface, there), hn::AndNot(on_surface, else_there));
+  };
+  return {end.value, choose(falls, end.inside), choose(falls, end.falls)};
+}
+
+inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
+  const std::span<const LeafLiteral> literals = leaf.literals();
+  const bool conjunction = kind == CellKind::kConjunction,
+             disjunction = kind == CellKind::kDisjunction;
+  // One literal that is false all along settles a conjunction, one that is true a disjunction;
+  // unless the ray came in with the opposite value, which makes it a change.
+  const uint32_t settles = conjunction || disjunction ? ~0u : 0, settling = disjunction ? 0 : ~0u;
+  for (size_t i = 0; i < visitors.count; ++i) {
+    const uint32_t packet = visitors.packet[i];
+    open_[i] = quiet_[i] = visitors.lanes[i];
+    opposite_[i] = tile_.known[packet] & (tile_.solid[packet] ^ ~settling);
+    scratch_.stats.leaves += uint32_t(std::popcount(open_[i]));
+  }
+  for (size_t literal = 0; literal < literals.size(); ++literal)
+    with_kind(scene_.half_spaces[literals[literal].literal >> 1].kind, [&](auto along_kind) {
+      look_at<along_kind.value>(literals[literal], &signs(literal, 0), settles, settling);
+    });
+  if (settles) {
+    for (size_t i = 0; i < visitors.count; ++i) {
+      const uint32_t packet = visitors.packet[i], settled = visitors.lanes[i] & ~open_[i];
+      // What is left without any crossing has the other value.
+      const uint32_t same =
+          open_[i] & quiet_[i] & ~(tile_.known[packet] & (tile_.solid[packet] ^ settling));
+      open_[i] &= ~same;
+      becomes(packet, settled | same, (settled & ~settling) | (same & settling));
+    }
+  }
+  waiting_count_ = 0;
+  for (size_t i = 0; i < visitors.count; ++i) {
+    waiting_[waiting_count_] = uint32_t(i);
+    waiting_count_ += open_[i] != 0;
+  }
+  if (waiting_count_ == 0) return;
+  if (literals.size() <= kTableLiterals && scene_.solves_in_lanes) {
+    find_roots(literals);
+    for (size_t w = 0; w < waiting_count_; ++w)
+      open_[waiting_[w]] = solve_in_lanes(leaf, literals, waiting_[w]);
+  }
+  for (size_t w = 0; w < waiting_count_; ++w)
+    for (uint32_t left = open_[waiting_[w]]; left != 0; left &= left - 1)
+      solve_lane(kind, leaf, waiting_[w], uint32_t(std::countr_zero(left)));
+}
+
+/// The signs of one literal for all visitors that wait. If `settles`, a lane along which the
+/// literal never changes and is not `settling` (all bits, or none) needs no more literals.
+template <AlongKind kKind>
+HWY_INLINE void LeavesInLanes::look_at(const LeafLiteral& literal, LaneSigns* signs_of,
+                                       uint32_t settles, uint32_t settling) {
+  const uint32_t turned = (literal.literal & 1 ? ~0u : 0) ^ settling;
+  for (size_t i = 0; i < visitors.count; ++i) {
+    const size_t packet = visitors.packet[i];
+    const Real t0 = hn::Load(D(), visitors.t0 + i * Tile::lanes()),
+               t1 = hn::Load(D(), visitors.t1 + i * Tile::lanes());
+    const LaneSigns s = signs_between(packet, along<kKind>(literal.literal >> 1, packet),
+                                      kKind == AlongKind::kPlane, t0, t1);
+    signs_of[i] = s;
+    scratch_.stats.literals += uint32_t(std::popcount(open_[i]));
+    const uint32_t still = ~(s.changes() | s.bends());
+    quiet_[i] &= still;
+    open_[i] &= ~(still & (s.inside() ^ turned) & ~opposite_[i] & settles);
+  }
+}
+
+/// All crossings of all visitors, infinitely far where a lane has none.
+inline void LeavesInLanes::find_roots(std::span<const LeafLiteral> literals) {
+  size_t n = 0;
+  for (size_t i = 0; i < visitors.count; ++i) {
+    first_root_[i] = uint32_t(n);
+    if (open_[i] == 0) continue;
+    for (size_t literal = 0; literal < literals.size(); ++literal) {
+      const LaneSigns& s = signs(literal, i);
+      const uint32_t bends = s.bends() & open_[i], crosses = (s.changes() & open_[i]) | bends;
+      // f rises where the ray leaves the half-space.
+      roots_[n] = {uint8_t(literal), uint8_t(i), uint8_t(crosses), uint8_t(s.inside())};
+      n += crosses != 0;
+      roots_[n] = {uint8_t(literal), uint8_t(i), uint8_t(bends), uint8_t(~s.inside())};
+      n += bends != 0;
+    }
+  }
+  first_root_[visitors.count] = uint32_t(n);
+  for (size_t r = 0; r < n; ++r) {
+    const Root& root = roots_[r];
+    const size_t at = root.visitor * Tile::lanes();
+    const L::AlongRay f = along(literals[root.literal].literal >> 1, visitors.packet[root.visitor]);
+    // The signs say that it is in (t0, t1]; rounding may not.
+    const Real t =
+        hn::Min(hn::Max(L::along_root(f, mask_of(root.rising)), hn::Load(D(), visitors.t0 + at)),
+                hn::Load(D(), visitors.t1 + at));
+    hn::Store(L::select(mask_of(root.lanes), t, set(kInfinity)), D(), root_t_ + r * Tile::lanes());
+  }
+}
+
+/// Decides what is plain, by the leaf's truth table. Returns the lanes that are not: where
+/// crossings happen together, where the leaf disagrees with what is known, where a surface has
+/// several owners, and where numbers overflow.
+inline uint32_t LeavesInLanes::solve_in_lanes(const Leaf& leaf,
+                                              std::span<const LeafLiteral> literals,
+                                              size_t visitor) {
+  const Real never = set(kInfinity);
+  const Word one = hn::Set(Words(), 1), table = hn::Set(Words(), leaf.table);
+  const auto as_words = [](Bool mask) { return hn::RebindMask(Words(), mask); };
+  const size_t packet = visitors.packet[visitor];
+  // One bit a literal: whether the ray is inside its half-space.
+  Word state = hn::Zero(Words());
+  for (size_t i = 0; i < literals.size(); ++i)
+    state = hn::Or(state, hn::IfThenElseZero(as_words(mask_of(signs(i, visitor).inside())),
+                                             hn::Set(Words(), uint64_t(1) << i)));
+  const auto solid_in = [&](Word s) {
+    return bits(hn::RebindMask(D(), hn::Ne(hn::And(hn::Shr(table, s), one), hn::Zero(Words()))));
+  };
+  const uint32_t solid = solid_in(state);
+  uint32_t open = open_[visitor];
+  uint32_t delicate = open & tile_.known[packet] & (solid ^ tile_.solid[packet]);
+  const Root* const roots = &roots_[first_root_[visitor]];
+  double* const at = &root_t_[first_root_[visitor] * Tile::lanes()];
+  const size_t count = first_root_[visitor + 1] - first_root_[visitor];
+  while (true) {
+    Real first = never, second = never;
+    Word flip = hn::Zero(Words());
+    for (size_t i = 0; i < count; ++i) {
+      const Real t = hn::Load(D(), at + i * Tile::lanes());
+      delicate |= ~bits(t == t);
+      const Bool sooner = t < first;
+      second = hn::Min(second, L::select(sooner, first, t));
+      flip =
+          hn::IfThenElse(as_words(sooner), hn::Set(Words(), uint64_t(1) << roots[i].literal), flip);
+      first = hn::Min(t, first);
+    }
+    open &= ~delicate;
+    const uint32_t none = open & ~bits(first < never);
+    becomes(packet, none, solid);
+    open &= ~none;
+    if (open == 0) return delicate & open_[visitor];
+    delicate |= open & bits(hn::Le(second, first + set(scene_.together)));
+    open &= ~delicate;
+    state = hn::Xor(state, flip);
+    const uint32_t after = solid_in(state), met = open & (after ^ solid);
+    if (met != 0) {
+      const uint32_t inside_after =
+          bits(hn::RebindMask(D(), hn::Ne(hn::And(state, flip), hn::Zero(Words()))));
+      const Word turned = hn::IfThenElseZero(as_words(mask_of(inside_after ^ after)), one);
+      for (size_t i = 0; i < literals.size(); ++i) {
+        const Bool by = hn::RebindMask(D(), hn::Eq(flip, hn::Set(Words(), uint64_t(1) << i)));
+        const uint32_t lanes = met & bits(by);
+        if (lanes == 0) continue;
+        const Word by_owner =
+            hn::Set(Words(), what_is_met(literals[i].owner, literals[i].literal >> 1, false));
+        tile_.met(packet, lanes, first, hn::Or(by_owner, turned));
+        if (literals[i].owner == kSharedOwner)
+          delicate |= lanes & ~find_owners(leaf, packet, lanes, state, uint32_t(i));
+      }
+      open &= ~met;
+    }
+    if (open == 0) return delicate & open_[visitor];
+    for (size_t i = 0; i < count; ++i) {
+      const Real t = hn::Load(D(), at + i * Tile::lanes());
+      hn::Store(L::select(t == first, never, t), D(), at + i * Tile::lanes());
+    }
+  }
+}
+
+/// Completes what some lanes have met, after the crossing of a literal of several owners. Returns
+/// the lanes whose owner is known; the others have met nothing yet.
+inline uint32_t LeavesInLanes::find_owners(const Leaf& leaf, size_t packet, uint32_t lanes,
+                                           Word state, uint32_t literal) {
+  alignas(64) uint64_t states[kMaxLanes];
+  hn::Store(state, Words(), states);
+  uint32_t found = 0;
+  for (uint32_t left = lanes; left != 0; left &= left - 1) {
+    const auto lane = uint32_t(std::countr_zero(left));
+    const uint32_t id = scratch_.solver.owner_of(leaf, states[lane], literal);
+    if (id == kSharedOwner) continue;
+    tile_.add_owner(packet, lane, id);
+    found |= 1u << lane;
+  }
+  tile_.hit[packet] &= uint8_t(~(lanes & ~found));
+  return found;
+}
+
+inline void LeavesInLanes::solve_lane(CellKind kind, const Leaf& leaf, size_t visitor,
+                                      uint32_t lane) {
+  const size_t packet = visitors.packet[visitor];
+  const std::span<const LeafLiteral> literals = leaf.literals();
+  scratch_.on_ray.resize(leaf.literal_count);
+  for (uint32_t i = 0; i < leaf.literal_count; ++i) {
+    const L::AlongRay all = along(literals[i].literal >> 1, packet);
+    const auto of_lane = [&](Real v) {
+      alignas(64) double values[kMaxLanes];
+      hn::Store(v, D(), values);
+      return values[lane];
+    };
+    const LaneSigns& s = signs(i, visitor);
+    scratch_.on_ray[i] = {{of_lane(all.a), of_lane(all.h), of_lane(all.k), of_lane(all.about)},
+                          bool(s.inside() >> lane & 1),
+                          bool(s.changes() >> lane & 1),
+                          bool(s.bends() >> lane & 1)};
+  }
+  const uint32_t bit = 1u << lane;
+  Inside inside = !(tile_.known[packet] & bit) ? Inside::kUnknown
+                  : tile_.solid[packet] & bit  ? Inside::kYes
+                                               : Inside::kNo;
+  Change change;
+  const size_t at = visitor * Tile::lanes() + lane;
+  if (scratch_.solver.first_change(kind, leaf, scratch_.on_ray, tile_.ray(packet, lane),
+                                   visitors.t0[at], visitors.t1[at], inside, change))
+    tile_.lane_met(packet, lane, change.t,
+                   what_is_met(change.id, change.half_space, change.turned));
+  else
+    becomes(packet, bit, inside == Inside::kYes ? bit : 0);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace whittle
+HWY_AFTER_NAMESPACE();
+
+#endif
