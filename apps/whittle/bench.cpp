@@ -173,6 +173,18 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   json["leaf_visits_per_ray"] = double(stats.leaves) / double(rays);
   json["literals_per_ray"] = double(stats.literals) / double(rays);
   json["million_rays_per_second"] = double(rays) / median(trace) / 1000;
+  if (auto* cpu = dynamic_cast<CpuTracer*>(&renderer->tracer())) {
+    // What is left of a frame when no ray has to look for its leaf.
+    cpu->record(camera);
+    std::vector<double> replay;
+    for (int i = 0; i < a.repeat; ++i) {
+      const Stopwatch watch;
+      cpu->replay(camera);
+      replay.push_back(watch.milliseconds());
+    }
+    json["replay_ms"] = median(replay);
+    json["trace_over_limit"] = median(trace) / median(replay);
+  }
   // Last of all: the peak of memory and the counts above are not the oracle's, nor this look's.
   if (Status right =
           check(file, read->model, camera, *renderer, a.renderer.subdivide.ignore_small, json);
@@ -239,8 +251,13 @@ std::string describe(const Json& m) {
   fmt::format_to(out, "  {:<12}{:>10}    {:.2f} cells, {:.2f} leaves, {:.2f} half-spaces a ray\n",
                  "rays", count("rays"), number("cell_visits_per_ray"),
                  number("leaf_visits_per_ray"), number("literals_per_ray"));
-  fmt::format_to(out, "  {:<12}{:>10.1f}    million a second\n", "trace",
+  fmt::format_to(out, "  {:<12}{:>10.1f}    million a second", "trace",
                  number("million_rays_per_second"));
+  if (m.contains("replay_ms")) {
+    fmt::format_to(out, "; limit {:.2f} ms, {:.2f} times", number("replay_ms"),
+                   number("trace_over_limit"));
+  }
+  text += '\n';
   fmt::format_to(out, "  {:<12}{:>10}    at most\n", "memory",
                  describe_bytes(count("peak_memory_bytes")));
   fmt::format_to(out, "  {:<12}{:>10}    places as the oracle sees them, {} ambiguous, {} wrong\n",

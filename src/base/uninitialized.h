@@ -16,13 +16,13 @@ struct UninitializedAllocator : std::allocator<T> {
   struct rebind {
     using other = UninitializedAllocator<U>;
   };
+  template <class U>
+  void construct(U*) noexcept {
+    static_assert(std::is_trivially_copyable_v<U>);  // so that it is there without being made
+  }
   template <class U, class... Parts>
   void construct(U* place, Parts&&... parts) {
-    static_assert(std::is_trivially_destructible_v<U>);
-    if constexpr (sizeof...(Parts) == 0)
-      ::new (static_cast<void*>(place)) U;
-    else
-      ::new (static_cast<void*>(place)) U(std::forward<Parts>(parts)...);
+    std::construct_at(place, std::forward<Parts>(parts)...);
   }
 };
 

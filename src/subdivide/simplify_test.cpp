@@ -16,14 +16,14 @@
 namespace whittle {
 namespace {
 
-Scene scene_of(const std::string& text) {
+Scene lowered_text(const std::string& text) {
   return *lower(model_of(text));
 }
 
 TEST(Classify, InsideAndOutsideAreNeverWrong) {
   Points points(3);
   for (uint64_t seed = 0; seed < 100; ++seed) {
-    const Scene scene = scene_of(random_tree(seed));
+    const Scene scene = lowered_text(random_tree(seed));
     for (const HalfSpace& h : scene.half_spaces) {
       const Box box = points.box_in(scene.region);
       const Side side = classify(h, CellBox(box, 0));
@@ -36,7 +36,7 @@ TEST(Classify, InsideAndOutsideAreNeverWrong) {
 
 TEST(Classify, BoundsOfAPrimitiveAreNeverWrong) {
   Points points(4);
-  const Scene scene = scene_of("rotate([10,20,30]) sphere(10, $fn = 24);");
+  const Scene scene = lowered_text("rotate([10,20,30]) sphere(10, $fn = 24);");
   ASSERT_GT(scene.units[0].inner_radius, 5);
   int proofs = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -62,9 +62,9 @@ TEST(Classify, ObliqueWallsAreToldWhereTheyAre) {
   std::uniform_real_distribution<double> angle(0, 360);
   for (const Wall& wall : {Wall{"cylinder(r = 4, h = 20, center = true);", 4, 0},
                            Wall{"cylinder(r1 = 6, r2 = 2, h = 20, center = true);", 4, -0.2}}) {
-    const Scene scene = scene_of(turned + wall.text);
+    const Scene scene = lowered_text(turned + wall.text);
     const HalfSpace& h = scene.half_spaces[scene.faces[0].literal >> 1];
-    const Scene axis = scene_of(turned + "halfspace(n = [0, 0, 1], d = 0);");
+    const Scene axis = lowered_text(turned + "halfspace(n = [0, 0, 1], d = 0);");
     const Vec3 along = normalize(axis.half_spaces[0].f.b);
     for (int i = 0; i < 100; ++i) {
       Vec3 across = cross(along, normalize(Vec3{std::cos(angle(random)), std::sin(angle(random)),
@@ -91,7 +91,7 @@ TEST(UnitBoxes, TellOnlyWhatIsSo) {
   Points points(10);
   size_t beside = 0, within = 0, balls = 0;
   for (uint64_t seed = 0; seed < 2000; ++seed) {
-    const Scene scene = scene_of(random_tree(seed % 100, {.halfspaces = seed % 4 == 0}));
+    const Scene scene = lowered_text(random_tree(seed % 100, {.halfspaces = seed % 4 == 0}));
     const UnitBoxes boxes(scene);
     for (size_t i = 0; i < scene.formula.size(); i += UnitBoxes::kBatch) {
       const std::span<const Token> tokens =
@@ -126,7 +126,7 @@ TEST(Simplify, KeepsTheValueInsideTheCell) {
   Points points(5);
   int shorter = 0, constant = 0;
   for (uint64_t seed = 0; seed < 300; ++seed) {
-    const Scene scene = scene_of(random_tree(seed));
+    const Scene scene = lowered_text(random_tree(seed));
     if (scene.region.is_empty()) continue;
     const UnitBoxes boxes(scene);
     Simplifier simplifier(scene, boxes, 0);
@@ -165,7 +165,7 @@ Formula bare(const Formula& formula) {
 TEST(Simplify, TwiceIsOnce) {
   Points points(6);
   for (uint64_t seed = 0; seed < 300; ++seed) {
-    const Scene scene = scene_of(random_tree(seed));
+    const Scene scene = lowered_text(random_tree(seed));
     if (scene.region.is_empty()) continue;
     const UnitBoxes boxes(scene);
     Simplifier simplifier(scene, boxes, 0);
@@ -181,7 +181,7 @@ TEST(Simplify, TwiceIsOnce) {
 
 TEST(Simplify, AGroupLeftWithOneOperandJoinsTheGroupAround) {
   // Or(a, And(b, Or(c, d))) where b is everywhere and c nowhere in the cell: Or(a, d).
-  const Scene scene = scene_of(
+  const Scene scene = lowered_text(
       "union(){ sphere(1); intersection(){ cube(100, center = true);"
       " union(){ translate([50,0,0]) sphere(1); translate([1,0,0]) sphere(1); } } }");
   const UnitBoxes boxes(scene);
@@ -199,7 +199,7 @@ TEST(Simplify, AGroupLeftWithOneOperandJoinsTheGroupAround) {
 TEST(Simplify, FacetsThatDoNotReachTheCellAreDropped) {
   // The planes of a finely facetted sphere all cross any cell at its surface of some size.
   Points points(8);
-  const Scene scene = scene_of("rotate([10,20,30]) scale([1,1.5,0.7]) sphere(10, $fn = 60);");
+  const Scene scene = lowered_text("rotate([10,20,30]) scale([1,1.5,0.7]) sphere(10, $fn = 60);");
   const UnitBoxes boxes(scene);
   Simplifier simplifier(scene, boxes, 0);
   Formula outer, inner;

@@ -3,10 +3,9 @@
 
 #include <cstdint>
 #include <limits>
-#include <memory>
-#include <utility>
 #include <vector>
 
+#include "base/uninitialized.h"
 #include "base/vec.h"
 
 namespace whittle {
@@ -26,25 +25,10 @@ struct Hit {
   bool hit() const { return id != 0; }
 };
 
-/// Leaves new elements of a vector as they are until someone writes them.
-template <class T>
-struct UnfilledAllocator : std::allocator<T> {
-  template <class U>
-  struct rebind {
-    using other = UnfilledAllocator<U>;
-  };
-  template <class U>
-  void construct(U*) noexcept {}
-  template <class U, class... Parts>
-  void construct(U* at, Parts&&... parts) {
-    std::construct_at(at, std::forward<Parts>(parts)...);
-  }
-};
-
 /// One hit a pixel, rows from the top, each from the left.
 struct Frame {
   int width = 0, height = 0;
-  std::vector<Hit, UnfilledAllocator<Hit>> hits;  ///< width * height
+  UninitializedVector<Hit> hits;  ///< width * height
 
   Frame() = default;
   Frame(int w, int h) : width(w), height(h), hits(size_t(w) * size_t(h), Hit{}) {}
