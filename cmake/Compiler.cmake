@@ -38,3 +38,7 @@ if(WHITTLE_FUZZ)
   # time of a picture, and what the reader compares with is in its dictionary.
   add_compile_options(-fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp)
 endif()
+
+# What Highway falls back to where a machine has no vectors: one lane with every compiler, as GCC 12 has
+# it anyway. Its emulation of 128 bits treats NaN and infinity otherwise than any real instruction set.
+add_compile_definitions(HWY_BROKEN_EMU128=1)
