@@ -103,7 +103,8 @@ UnitBoxes::UnitBoxes(const Scene& scene)
 }
 
 UnitBoxes::Batch UnitBoxes::look_at(std::span<const Token> tokens, const CellBox& cell) const {
-  HWY_ALIGN int32_t units[kBatch];
+  // HWY_ALIGN would be the alignment of the baseline here, outside of the instruction sets.
+  alignas(64) int32_t units[kBatch];
   std::fill(units, units + kBatch, int32_t(entries_.size() - 1));
   uint32_t negated = 0;
   for (size_t i = 0; i < tokens.size(); ++i) {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <hwy/highway.h>
-
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -12,6 +10,7 @@
 #include "model/facets.h"
 #include "subdivide/subdivide.h"
 #include "support/agreement.h"
+#include "support/instruction_sets.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"
 
@@ -193,19 +192,6 @@ TEST(Cpu, IgnoredCellsAreHoles) {
   EXPECT_FALSE(model.hit({-20, 0, 0}, {0, 0, 0}).hit());
 }
 
-/// Calls visit() once with every instruction set that this machine has, and the scalar one.
-template <class Visit>
-void for_every_target(Visit&& visit) {
-  for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    SCOPED_TRACE(hwy::TargetName(target));
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    visit();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-}
-
 TEST(Cpu, EveryInstructionSetGivesTheSameBytes) {
   for (const uint64_t seed : {3, 5, 8}) {
     const Model model = model_of(random_tree(seed, {.primitives = 30}));
@@ -214,7 +200,7 @@ TEST(Cpu, EveryInstructionSetGivesTheSameBytes) {
     const auto tracer = make_cpu_tracer(scene, cells);
     for (const Camera& camera : cameras_for(model, 75, 53)) {
       std::vector<Frame> frames;
-      for_every_target([&] { frames.push_back(tracer->render(camera, {})); });
+      for_every_instruction_set([&] { frames.push_back(tracer->render(camera, {})); });
       ASSERT_GE(frames.size(), 1u);
       for (const Frame& frame : frames)
         EXPECT_EQ(

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <hwy/highway.h>
-
 #include <array>
 #include <cstring>
 #include <string>
@@ -13,6 +11,7 @@
 #include "model/facets.h"
 #include "subdivide/subdivide.h"
 #include "support/agreement.h"
+#include "support/instruction_sets.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"
 
@@ -44,15 +43,10 @@ size_t expect_same(const Scene& scene, const SubdivideSettings& settings,
   alone.solves_in_lanes = false;
   for (const Camera& camera : cameras) {
     const std::vector<Hit> expected = hits_of(alone, camera);
-    for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
-      SCOPED_TRACE(hwy::TargetName(target));
-      hwy::SetSupportedTargetsForTest(target);
-      hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    for_every_instruction_set([&] {
       const std::vector<Hit> hits = hits_of(in_lanes, camera);
       EXPECT_EQ(std::memcmp(hits.data(), expected.data(), hits.size() * sizeof(Hit)), 0);
-    }
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    });
     for (const Hit& h : expected) hit += h.hit();
   }
   return hit;
