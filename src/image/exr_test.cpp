@@ -12,8 +12,8 @@
 #include <fstream>
 #include <limits>
 
+#include "base/folder_for_test.h"
 #include "image/srgb.h"
-#include "image/temporary_file_for_test.h"
 
 namespace whittle {
 namespace {
@@ -52,8 +52,9 @@ void write_all(const std::string& path, const std::string& bytes) {
 RC_GTEST_PROP(Exr, FactsComeBackBitByBit, ()) {
   const Frame f = random_frame(*rc::gen::inRange(1, 30), *rc::gen::inRange(1, 30),
                                *rc::gen::arbitrary<uint32_t>());
-  const TemporaryFile file_name(".exr");
-  const std::string& path = file_name.path();
+  const TestFolder folder;
+  const std::string file_name = folder / "x.exr";
+  const std::string& path = file_name;
   RC_ASSERT(bool(write_exr(path, f, Picture(f.width, f.height))));
   const Result<Frame> read = read_exr(path);
   RC_ASSERT(bool(read));
@@ -61,8 +62,9 @@ RC_GTEST_PROP(Exr, FactsComeBackBitByBit, ()) {
 }
 
 TEST(Exr, BackgroundIsInfinitelyFar) {
-  const TemporaryFile file_name(".exr");
-  const std::string& path = file_name.path();
+  const TestFolder folder;
+  const std::string file_name = folder / "x.exr";
+  const std::string& path = file_name;
   ASSERT_TRUE(write_exr(path, Frame(2, 1), Picture(2, 1)));
   const Result<Frame> read = read_exr(path);
   ASSERT_TRUE(read);
@@ -74,8 +76,9 @@ TEST(Exr, ColorsAreLinearPremultipliedHalfs) {
   Picture picture(2, 1);
   const uint8_t bytes[] = {255, 128, 0, 255, 255, 128, 0, 51};
   std::copy(std::begin(bytes), std::end(bytes), picture.rgba.begin());
-  const TemporaryFile file_name(".exr");
-  const std::string& path = file_name.path();
+  const TestFolder folder;
+  const std::string file_name = folder / "x.exr";
+  const std::string& path = file_name;
   ASSERT_TRUE(write_exr(path, Frame(2, 1), picture));
 
   Imf::InputFile file(path.c_str());
@@ -127,8 +130,9 @@ void expect_error(const std::string& path, const std::string& part) {
 }
 
 TEST(Exr, WrongFilesAreErrorsThatSayWhy) {
-  const TemporaryFile file_name(".exr");
-  const std::string& path = file_name.path();
+  const TestFolder folder;
+  const std::string file_name = folder / "x.exr";
+  const std::string& path = file_name;
   expect_error("/no/such/file.exr", "No such file");
   write_all(path, "not a picture at all, but long enough to have a header");
   expect_error(path, "not an OpenEXR file");
@@ -146,8 +150,9 @@ TEST(Exr, WrongFilesAreErrorsThatSayWhy) {
 }
 
 TEST(Exr, AWindowAwayFromTheOriginIsRead) {
-  const TemporaryFile file_name(".exr");
-  const std::string& path = file_name.path();
+  const TestFolder folder;
+  const std::string file_name = folder / "x.exr";
+  const std::string& path = file_name;
   write_channels(path, {"Z", "N.X", "N.Y", "N.Z", "id"}, Imf::FLOAT, Imf::UINT, -70, 40);
   const Result<Frame> read = read_exr(path);
   ASSERT_TRUE(read) << read.error().message;
@@ -164,8 +169,9 @@ TEST(Exr, WritingToNowhereIsAnError) {
 }
 
 TEST(Exr, TruncatedFilesAreErrors) {
-  const TemporaryFile file_name(".exr");
-  const std::string& path = file_name.path();
+  const TestFolder folder;
+  const std::string file_name = folder / "x.exr";
+  const std::string& path = file_name;
   ASSERT_TRUE(write_exr(path, random_frame(20, 40, 3), Picture(20, 40)));
   const std::string whole = read_all(path);
   for (size_t length = 0; length < whole.size(); length += 1 + whole.size() / 50) {
@@ -175,8 +181,9 @@ TEST(Exr, TruncatedFilesAreErrors) {
 }
 
 RC_GTEST_PROP(Exr, DamagedFilesNeverCrash, ()) {
-  const TemporaryFile file_name(".exr");
-  const std::string& path = file_name.path();
+  const TestFolder folder;
+  const std::string file_name = folder / "x.exr";
+  const std::string& path = file_name;
   RC_ASSERT(bool(write_exr(path, random_frame(8, 8, 3), Picture(8, 8))));
   std::string bytes = read_all(path);
   for (int i = 0; i < 4; ++i) {

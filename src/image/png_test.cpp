@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "image/temporary_file_for_test.h"
+#include "base/folder_for_test.h"
 
 namespace whittle {
 namespace {
@@ -23,8 +23,9 @@ Picture random_picture(int width, int height, uint32_t seed) {
 RC_GTEST_PROP(Png, WhatIsWrittenIsReadBack, ()) {
   const Picture p = random_picture(*rc::gen::inRange(1, 40), *rc::gen::inRange(1, 40),
                                    *rc::gen::arbitrary<uint32_t>());
-  const TemporaryFile file_name(".png");
-  const std::string& path = file_name.path();
+  const TestFolder folder;
+  const std::string file_name = folder / "x.png";
+  const std::string& path = file_name;
   RC_ASSERT(bool(write_png(path, p, true)));
   const Result<Picture> read = read_png(path);
   RC_ASSERT(bool(read));
@@ -33,8 +34,9 @@ RC_GTEST_PROP(Png, WhatIsWrittenIsReadBack, ()) {
 
 TEST(Png, WithoutAlphaTheColorsStay) {
   const Picture p = random_picture(31, 17, 5);
-  const TemporaryFile file_name(".png");
-  const std::string& path = file_name.path();
+  const TestFolder folder;
+  const std::string file_name = folder / "x.png";
+  const std::string& path = file_name;
   ASSERT_TRUE(write_png(path, p, false));
   const Result<Picture> read = read_png(path);
   ASSERT_TRUE(read);
@@ -44,8 +46,9 @@ TEST(Png, WithoutAlphaTheColorsStay) {
 }
 
 TEST(Png, WritesToAnOpenFileAfterWhatIsThere) {
-  const TemporaryFile file_name(".png");
-  const std::string& path = file_name.path();
+  const TestFolder folder;
+  const std::string file_name = folder / "x.png";
+  const std::string& path = file_name;
   std::FILE* file = std::fopen(path.c_str(), "wb");
   ASSERT_NE(file, nullptr);
   std::fputs("before", file);
@@ -77,8 +80,9 @@ TEST(Png, AnErrorThatComesWithTheLastBytesIsSeen) {
 }
 
 TEST(Png, WhatIsNoPngIsAnError) {
-  const TemporaryFile file_name(".png");
-  const std::string& path = file_name.path();
+  const TestFolder folder;
+  const std::string file_name = folder / "x.png";
+  const std::string& path = file_name;
   EXPECT_FALSE(read_png("/no/such/file.png"));
   std::ofstream(path) << "hello";
   EXPECT_FALSE(read_png(path));

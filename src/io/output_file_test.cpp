@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <string>
 
+#include "base/folder_for_test.h"
 #include "io/input_file.h"
 #include "io/pending_files.h"
 
@@ -19,13 +20,6 @@ namespace fs = std::filesystem;
 
 class OutputFileTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "output_file_test-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string path(const char* name) const { return (folder_ / name).string(); }
   int files() const {
     int count = 0;
@@ -37,7 +31,8 @@ class OutputFileTest : public testing::Test {
     return text ? *text : text.error().message;
   }
 
-  fs::path folder_;
+  const TestFolder own_folder_;
+  const fs::path& folder_ = own_folder_.path();
 };
 
 TEST_F(OutputFileTest, TheTargetAppearsWholeWithCommit) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 
+#include "base/folder_for_test.h"
 #include "io/csg_test_support.h"
 #include "io/output_file.h"
 #include "io/read.h"
@@ -19,9 +20,6 @@ namespace fs = std::filesystem;
 class ReadFileTest : public testing::Test {
  protected:
   void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "read_file_test-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
     path_before_ = std::getenv("PATH");
     // What is flattened leaves its traces, if any, in here.
     fs::create_directory(folder_ / "tmp");
@@ -30,7 +28,6 @@ class ReadFileTest : public testing::Test {
   void TearDown() override {
     ::unsetenv("TMPDIR");
     ::setenv("PATH", path_before_.c_str(), 1);
-    fs::remove_all(folder_);
   }
 
   std::string write(const char* name, std::string_view text) const {
@@ -50,7 +47,8 @@ class ReadFileTest : public testing::Test {
     return read ? Error{ErrorKind::kInput, "no error"} : read.error();
   }
 
-  fs::path folder_;
+  const TestFolder own_folder_;
+  const fs::path& folder_ = own_folder_.path();
   std::string path_before_;
 };
 

@@ -4,27 +4,13 @@
 
 #include <filesystem>
 
+#include "base/folder_for_test.h"
 #include "image/exr.h"
 
 namespace whittle {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder that goes with the test.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "whittle-output-XXXXXX").string();
-    if (::mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~Folder() { fs::remove_all(path_); }
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-  bool is_empty() const { return fs::is_empty(path_); }
-
- private:
-  std::string path_;
-};
 
 Frame frame_with_one_hit() {
   Frame frame(2, 1);
@@ -43,12 +29,12 @@ TEST(Output, TheEndingTellsTheFormat) {
 }
 
 TEST(Output, AnEncodedExrHoldsTheFacts) {
-  const Folder folder;
+  const TestFolder folder;
   const Frame frame = frame_with_one_hit();
   const Result<std::string> bytes = encode(FileFormat::kExr, frame, Picture(2, 1), false, "x");
   ASSERT_TRUE(bool(bytes));
-  ASSERT_TRUE(bool(write_output(folder.file("x.exr"), *bytes)));
-  const Result<Frame> read = read_exr(folder.file("x.exr"));
+  ASSERT_TRUE(bool(write_output(folder / "x.exr", *bytes)));
+  const Result<Frame> read = read_exr(folder / "x.exr");
   ASSERT_TRUE(bool(read));
   EXPECT_EQ(read->at(1, 0).id, 7u);
   EXPECT_EQ(read->at(1, 0).distance, 2.5f);
@@ -73,12 +59,12 @@ TEST(Output, PassesHaveABackgroundUnlessItIsNotWanted) {
 }
 
 TEST(Output, AskingWhetherAFileCanBeWrittenLeavesNothing) {
-  const Folder folder;
-  EXPECT_TRUE(bool(check_writable(folder.file("x.png"))));
-  EXPECT_TRUE(folder.is_empty());
+  const TestFolder folder;
+  EXPECT_TRUE(bool(check_writable(folder / "x.png")));
+  EXPECT_TRUE(fs::is_empty(folder.path()));
   EXPECT_TRUE(bool(check_writable("-")));
   EXPECT_TRUE(bool(check_writable("/dev/null")));
-  for (const std::string& path : {folder.file("absent/x.png"), folder.file("")}) {
+  for (const std::string& path : {folder / "absent/x.png", folder / ""}) {
     const Status possible = check_writable(path);
     ASSERT_FALSE(possible) << path;
     EXPECT_EQ(possible.error().kind, ErrorKind::kMachine);

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/folder_for_test.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -16,6 +18,7 @@ using whittle::LoadOptions;
 using whittle::Rendering;
 using whittle::RenderOptions;
 using whittle::Solid;
+using whittle::TestFolder;
 
 constexpr const char* kCube = "cube(0); cube(10, center = true);";
 
@@ -185,20 +188,18 @@ TEST(Rendering, RefusesOptionsThatDoNotExist) {
 }
 
 TEST(Rendering, IsWrittenByTheEndingOfTheName) {
-  std::string folder = (fs::temp_directory_path() / "whittle-api-XXXXXX").string();
-  ASSERT_NE(::mkdtemp(folder.data()), nullptr);
+  const TestFolder folder;
   Rendering made = Solid::parse(kCube).render(from_above());
-  made.write(folder + "/x.png");
-  made.write(folder + "/x.exr");
-  EXPECT_GT(fs::file_size(folder + "/x.png"), 100u);
-  EXPECT_GT(fs::file_size(folder + "/x.exr"), 300u);
-  EXPECT_EQ(failure_of([&] { made.write(folder + "/x.gif"); }).cause(), Failure::Cause::kUsage);
-  EXPECT_EQ(failure_of([&] { made.write(folder + "/absent/x.png"); }).cause(),
+  made.write(folder / "x.png");
+  made.write(folder / "x.exr");
+  EXPECT_GT(fs::file_size(folder / "x.png"), 100u);
+  EXPECT_GT(fs::file_size(folder / "x.exr"), 300u);
+  EXPECT_EQ(failure_of([&] { made.write(folder / "x.gif"); }).cause(), Failure::Cause::kUsage);
+  EXPECT_EQ(failure_of([&] { made.write(folder / "absent/x.png"); }).cause(),
             Failure::Cause::kMachine);
   made.rgba.pop_back();
-  EXPECT_EQ(failure_of([&] { made.write(folder + "/y.png"); }).cause(), Failure::Cause::kUsage);
-  EXPECT_FALSE(fs::exists(folder + "/y.png"));
-  fs::remove_all(folder);
+  EXPECT_EQ(failure_of([&] { made.write(folder / "y.png"); }).cause(), Failure::Cause::kUsage);
+  EXPECT_FALSE(fs::exists(folder / "y.png"));
 }
 
 }  // namespace

@@ -12,7 +12,6 @@ using Json = nlohmann::json;
 class Commands : public ProgramTest {
  protected:
   void SetUp() override {
-    ProgramTest::SetUp();
     write("part.csg",
           "difference() {\n"
           "  cube(20, center = true);\n"

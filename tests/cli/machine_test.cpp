@@ -11,7 +11,6 @@ namespace {
 class Machine : public ProgramTest {
  protected:
   void SetUp() override {
-    ProgramTest::SetUp();
     write("part.csg", "difference() { cube(20, center = true); sphere(12); }\n");
   }
 

@@ -31,7 +31,6 @@ std::vector<std::string> channel_names(const std::string& bytes) {
 class Render : public ProgramTest {
  protected:
   void SetUp() override {
-    ProgramTest::SetUp();
     write("part.csg",
           "difference() {\n"
           "  color([0.2, 0.4, 0.8, 1]) cube(20, center = true);\n"

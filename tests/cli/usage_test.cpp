@@ -7,10 +7,7 @@ namespace {
 
 class Usage : public ProgramTest {
  protected:
-  void SetUp() override {
-    ProgramTest::SetUp();
-    write("part.csg", "cube(10);\n");
-  }
+  void SetUp() override { write("part.csg", "cube(10);\n"); }
 
   /// Runs `part.csg -o x.png` with more arguments, which must be refused with that message.
   void expect_refused(std::vector<std::string> arguments, const std::string& message) {

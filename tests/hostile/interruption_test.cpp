@@ -20,10 +20,7 @@ constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 class Interruption : public ProgramTest {
  protected:
-  void SetUp() override {
-    ProgramTest::SetUp();
-    write("x.png", "old");
-  }
+  void SetUp() override { write("x.png", "old"); }
 
   /// Long enough for the program to have come to a stage that takes far longer.
   static void wait_a_little() { std::this_thread::sleep_for(std::chrono::milliseconds(400)); }

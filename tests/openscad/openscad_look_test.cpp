@@ -15,30 +15,13 @@
 #include <string>
 #include <vector>
 
+#include "base/folder_for_test.h"
 #include "display.h"
 #include "image/exr.h"
 #include "image/png.h"
 
 namespace whittle {
 namespace {
-
-/// A folder of this test's own, removed at the end.
-class Folder {
- public:
-  Folder() : path_(testing::TempDir() + "whittle_openscad_XXXXXX") {
-    if (::mkdtemp(path_.data()) == nullptr) std::abort();
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
 
 struct Look {
   Picture theirs, ours;
@@ -57,7 +40,7 @@ bool run(const std::string& command, const std::string& log) {
 void look_at(const std::string& file, const std::string& options, Look& look) {
   static const Display display;
   ASSERT_FALSE(display.name().empty()) << WHITTLE_XVFB " did not start";
-  const Folder folder;
+  const TestFolder folder;
   const std::string log = folder / "log", theirs = folder / "theirs.png",
                     ours = folder / "ours.png", facts = folder / "facts.exr";
   // The word after a bare --render would be its value.

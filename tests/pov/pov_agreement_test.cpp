@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "agreement/cpu_subject.h"
+#include "base/folder_for_test.h"
 #include "image/antialias.h"
 #include "image/png.h"
 #include "image/pov.h"
@@ -32,30 +33,11 @@ std::ostream& operator<<(std::ostream& out, const Scene& s) {
   return out << s.name;
 }
 
-/// A folder of this test's own, removed at the end.
-class Folder {
- public:
-  Folder() : path_(testing::TempDir() + "whittle_pov_XXXXXX") {
-    if (::mkdtemp(path_.data()) == nullptr) std::abort();
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 /// POV-Ray's picture of the scene text. HOME is the folder, as POV-Ray wants a place for settings.
 Result<Picture> run_povray(const std::string& scene, const Camera& camera) {
-  const Folder folder;
+  const TestFolder folder;
   std::ofstream(folder / "scene.pov") << scene;
-  const std::string command = "cd '" + folder.path() + "' && HOME='" + folder.path() +
+  const std::string command = "cd '" + (folder / "") + "' && HOME='" + (folder / "") +
                               "' '" WHITTLE_POVRAY "' +Iscene.pov +Opicture.png +FN8 -A -D +W" +
                               std::to_string(camera.width) + " +H" + std::to_string(camera.height) +
                               " >log 2>&1 </dev/null";

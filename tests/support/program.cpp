@@ -62,16 +62,6 @@ Ended wait_for(pid_t child) {
 
 }  // namespace
 
-void ProgramTest::SetUp() {
-  std::string name = (fs::temp_directory_path() / "whittle-cli-XXXXXX").string();
-  ASSERT_NE(::mkdtemp(name.data()), nullptr);
-  folder_ = name;
-}
-
-void ProgramTest::TearDown() {
-  fs::remove_all(folder_);
-}
-
 pid_t ProgramTest::start(const std::vector<std::string>& arguments, const RunSettings& settings,
                          int in, int out, int err) const {
   std::vector<char*> words;
@@ -101,7 +91,7 @@ pid_t ProgramTest::start(const std::vector<std::string>& arguments, const RunSet
   }
   limit(RLIMIT_AS, settings.memory_limit);
   limit(RLIMIT_FSIZE, settings.file_limit);
-  if (::chdir(folder_.c_str()) == 0) ::execv(program.c_str(), words.data());
+  if (::chdir(folder_.path().c_str()) == 0) ::execv(program.c_str(), words.data());
   ::_exit(kNotStarted);
 }
 
@@ -156,7 +146,7 @@ std::string ProgramTest::read(const std::string& name) const {
 
 std::vector<std::string> ProgramTest::files() const {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder_))
+  for (const auto& entry : fs::directory_iterator(folder_.path()))
     names.push_back(entry.path().filename().string());
   std::ranges::sort(names);
   return names;

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "base/folder_for_test.h"
+
 namespace whittle {
 
 /// How a run ended, and what it said.
@@ -33,9 +35,6 @@ struct RunSettings {
 
 class ProgramTest : public testing::Test {
  protected:
-  void SetUp() override;
-  void TearDown() override;
-
   /// Runs to the end, in the folder of the test.
   Ended run(const std::vector<std::string>& arguments, const RunSettings& settings = {}) const;
   /// Starts a run, ends it by a signal after that time, and waits. Says nothing of what it printed.
@@ -46,7 +45,7 @@ class ProgramTest : public testing::Test {
   Ended run_and_signal(const std::vector<std::string>& arguments, int signal,
                        const std::function<void()>& wait) const;
 
-  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+  std::string path(const std::string& name) const { return folder_ / name; }
   void write(const std::string& name, const std::string& text) const;
   /// The whole of a file; a failure if it is not there.
   std::string read(const std::string& name) const;
@@ -57,7 +56,7 @@ class ProgramTest : public testing::Test {
   pid_t start(const std::vector<std::string>& arguments, const RunSettings& settings, int in,
               int out, int err) const;
 
-  std::string folder_;
+  const TestFolder folder_;
 };
 
 }  // namespace whittle
