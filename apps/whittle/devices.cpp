@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -56,11 +55,11 @@ std::string describe_json(const std::vector<gpu::DeviceInfo>& devices) {
 }  // namespace
 
 int devices_command(Arguments arguments) {
-  CLI::App app;
-  set_help(app, kHelp);
+  CommandLine line(kHelp);
   bool wants_json = false;
-  OptionGroup(app, "Output").add_flag("--json", wants_json, "an array with one object a device");
-  if (const std::optional<int> code = parse(app, arguments)) return *code;
+  OptionGroup(line.app(), "Output")
+      .add_flag("--json", wants_json, "an array with one object a device");
+  if (const std::optional<int> code = line.parse(arguments)) return *code;
   const Result<std::vector<gpu::DeviceInfo>> devices = gpu::list_devices();
   if (!devices) return report(devices.error());
   return print(wants_json ? describe_json(*devices) : describe_text(*devices));
