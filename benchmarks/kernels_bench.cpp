@@ -93,7 +93,7 @@ void solve_leaf(benchmark::State& state, const char* text) {
   view.width = view.height = 64;
   const Camera camera = renderer->camera(view);
   renderer->prepare(camera);
-  for (auto _ : state) benchmark::DoNotOptimize(renderer->trace(camera).hits.data());
+  for (auto _ : state) benchmark::DoNotOptimize(renderer->trace(camera)->hits.data());
   state.SetItemsProcessed(int64_t(state.iterations()) * camera.width * camera.height);
 }
 BENCHMARK_CAPTURE(solve_leaf, sphere, "sphere(10);");
@@ -108,11 +108,11 @@ void shade_pixels(benchmark::State& state) {
   Result<Renderer> renderer = Renderer::make(read->model, settings);
   const Camera camera = renderer->camera({});
   renderer->prepare(camera);
-  const Frame frame = renderer->trace(camera);
+  const Frame frame = *renderer->trace(camera);
   ShadeSettings look;
   look.style = Style(state.range(0));
   for (auto _ : state)
-    benchmark::DoNotOptimize(renderer->shade(frame, camera, look, 1).rgba.data());
+    benchmark::DoNotOptimize(renderer->shade(frame, camera, look, 1)->rgba.data());
   state.SetItemsProcessed(int64_t(state.iterations()) * camera.width * camera.height);
 }
 BENCHMARK(shade_pixels)

@@ -7,6 +7,12 @@ find_package(fmt REQUIRED)             # libfmt-dev: text
 find_package(nlohmann_json REQUIRED)   # nlohmann-json3-dev: machine-readable output
 find_package(PNG REQUIRED)             # libpng-dev: pictures
 find_package(OpenEXR REQUIRED)         # libopenexr-dev: facts as pictures
+if(WHITTLE_VULKAN)
+  # libvulkan-dev: headers; glslc: compiles the shaders; libvulkan-volk-dev: finds the loader when the
+  # program runs.
+  find_package(Vulkan REQUIRED COMPONENTS glslc)
+  find_path(VOLK_INCLUDE volk.h REQUIRED)
+endif()
 if(WHITTLE_TESTS)
   find_package(GTest REQUIRED)         # libgtest-dev
   include(GoogleTest)

@@ -3,7 +3,7 @@
 # One folder of src/, one library whittle_NAME. TESTS become one program NAME_test whose cases CTest
 # knows one by one, labelled `unit`. DEPENDS names libraries; only those to the left in the data path.
 function(whittle_module name)
-  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;TESTS;TEST_DEPENDS" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;TESTS;TEST_DEPENDS;TEST_ENVIRONMENT" ${ARGN})
   if(arg_SOURCES)
     add_library(whittle_${name} STATIC ${arg_SOURCES})
     target_include_directories(whittle_${name}
@@ -23,6 +23,6 @@ function(whittle_module name)
     target_link_libraries(${name}_test PRIVATE whittle_${name} ${arg_TEST_DEPENDS} rapidcheck
                           GTest::gtest GTest::gtest_main)
     gtest_discover_tests(${name}_test TEST_PREFIX "${name}/" DISCOVERY_TIMEOUT 60
-                         PROPERTIES LABELS unit TIMEOUT 60)
+                         PROPERTIES LABELS unit TIMEOUT 60 ENVIRONMENT "${arg_TEST_ENVIRONMENT}")
   endif()
 endfunction()

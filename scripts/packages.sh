@@ -13,9 +13,15 @@ build_packages=(
   nlohmann-json3-dev  # machine-readable output
   libpng-dev          # pictures
   libopenexr-dev      # facts as pictures
+  libvulkan-dev       # the Vulkan backend: headers,
+  libvulkan-volk-dev  # the way to its functions when the program runs,
+  libvulkan1          # and what that finds there
+  glslc               # compiles shaders
 )
 
 test_packages=(
+  mesa-vulkan-drivers      # a Vulkan device that needs no GPU
+  vulkan-validationlayers  # what watches over its use
   libgtest-dev        # unit tests
   librapidcheck-dev   # property tests
   libbenchmark-dev    # kernel benchmarks

@@ -119,18 +119,20 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
     lower.push_back(renderer->times().lower);
   }
   const Camera camera = renderer->camera(a.view);
-  renderer->prepare(camera);
+  if (Status prepared = renderer->prepare(camera); !prepared) return prepared.error();
   TraceStats stats;
   for (int i = 0; i < a.repeat; ++i) {
     const Stopwatch watch;
-    renderer->prepare(camera);
-    const Frame frame = renderer->trace(camera);
-    const Picture picture = renderer->shade(frame, camera, ShadeSettings{}, 1);
+    if (Status prepared = renderer->prepare(camera); !prepared) return prepared.error();
+    const Result<Frame> frame = renderer->trace(camera);
+    if (!frame) return frame.error();
+    const Result<Picture> picture = renderer->shade(*frame, camera, ShadeSettings{}, 1);
+    if (!picture) return picture.error();
     cold.push_back(watch.milliseconds());
     shade.push_back(renderer->times().shade);
     stats = renderer->trace_stats();
     // Again, now that all the cells that it needs are there.
-    renderer->trace(camera);
+    if (const Result<Frame> again = renderer->trace(camera); !again) return again.error();
     trace.push_back(renderer->times().trace);
   }
   RendererSettings all_cells = a.renderer;
@@ -138,7 +140,7 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   Result<Renderer> eager = Renderer::make(read->model, all_cells);
   if (!eager) return eager.error();
   for (int i = 0; i < a.repeat; ++i) {
-    eager->prepare(camera);
+    if (Status prepared = eager->prepare(camera); !prepared) return prepared.error();
     subdivide.push_back(eager->times().subdivide);
   }
 

@@ -121,6 +121,10 @@ void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffec
                    if (!chosen) refuse("--backend", chosen.error().message);
                    settings.backend = *chosen;
                  });
+  group.add_text("--device", "DEVICE",
+                 "of vulkan backends: its number or a part of its name\n"
+                 "(see whittle devices)",
+                 [&](const std::string& device) { settings.device = device; });
   group.add_count("--threads", "N", settings.threads, 0, kMostThreads,
                   "0 (all) to 1024; the picture is the same");
 }

@@ -13,5 +13,6 @@ int info_command(Arguments arguments);
 int compare_command(Arguments arguments);
 int bench_command(Arguments arguments);
 int model_command(Arguments arguments);
+int devices_command(Arguments arguments);
 
 }  // namespace whittle

@@ -25,7 +25,8 @@ struct Command {
 constexpr Command kCommands[] = {{"info", info_command},
                                  {"compare", compare_command},
                                  {"bench", bench_command},
-                                 {"model", model_command}};
+                                 {"model", model_command},
+                                 {"devices", devices_command}};
 
 int run(Arguments arguments) {
   for (const Command& command : kCommands) {

@@ -25,7 +25,8 @@ constexpr CommandHelp kHelp = {
     "       whittle info FILE                  says what is in a file\n"
     "       whittle compare A.exr B.exr        compares the facts of two pictures\n"
     "       whittle bench FILE...              measures every stage\n"
-    "       whittle model NAME [N] [-o OUT]    writes a model made to measure\n\n"
+    "       whittle model NAME [N] [-o OUT]    writes a model made to measure\n"
+    "       whittle devices                    lists Vulkan's devices\n\n"
     "FILE is .csg, or .scad if openscad is installed; '-' is standard input. Each\n"
     "command has its own --help. A file that is called like a command is ./info.",
     "Examples:\n"
@@ -128,20 +129,25 @@ Status write_all(const RenderArguments& a, const std::vector<Output>& outputs, c
 }
 
 /// Traces and shades; pictures that no output shows are not made.
-void draw(const RenderArguments& a, const std::vector<Output>& outputs, const Camera& camera,
-          Renderer& renderer, Frame& frame, Picture& picture) {
+Status draw(const RenderArguments& a, const std::vector<Output>& outputs, const Camera& camera,
+            Renderer& renderer, Frame& frame, Picture& picture) {
   ProgressLine progress(!a.loading.quiet, "subdividing");
-  renderer.prepare(camera);
+  if (Status prepared = renderer.prepare(camera); !prepared) return prepared;
   progress.stage("tracing");
-  frame = renderer.trace(camera, progress.share());
+  Result<Frame> traced = renderer.trace(camera, progress.share());
+  if (!traced) return traced.error();
+  frame = *std::move(traced);
   const bool shows_color =
       a.pass == Pass::kColor || std::ranges::any_of(outputs, [](const Output& output) {
         return output.format == FileFormat::kExr;
       });
-  if (!shows_color) return;
+  if (!shows_color) return Done{};
   progress.stage("shading");
   const int rays = a.antialias > 0 ? a.antialias : default_antialias(a.shading.style);
-  picture = renderer.shade(frame, camera, a.shading, rays);
+  Result<Picture> shaded = renderer.shade(frame, camera, a.shading, rays);
+  if (!shaded) return shaded.error();
+  picture = *std::move(shaded);
+  return Done{};
 }
 
 Status render(RenderArguments& a) {
@@ -171,7 +177,7 @@ Status render(RenderArguments& a) {
   const Camera camera = renderer->camera(a.view);
   Frame frame;
   Picture picture;
-  draw(a, *outputs, camera, *renderer, frame, picture);
+  if (Status drawn = draw(a, *outputs, camera, *renderer, frame, picture); !drawn) return drawn;
 
   const auto before_writing = Clock::now();
   if (Status written = write_all(a, *outputs, frame, picture); !written) return written;

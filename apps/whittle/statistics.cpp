@@ -74,6 +74,8 @@ std::string statistics(const Model& model, const Renderer& renderer, bool is_aut
   Lines out = std::back_inserter(text);
   fmt::format_to(out, "backend       {:>12}{}\n", name_of(backend_choices(), renderer.backend()),
                  is_auto ? "   (auto)" : "");
+  if (!renderer.backend_note().empty())
+    fmt::format_to(out, "device                       {}\n", renderer.backend_note());
   fmt::format_to(out, "nodes         {:>12}\n", model.nodes.size());
   fmt::format_to(out, "primitives    {:>12}   of {} statements\n", model.primitives.size(),
                  model.statement_count);

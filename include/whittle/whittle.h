@@ -73,7 +73,8 @@ struct RenderOptions {
   bool background = true;        ///< false: what is not hit is transparent
   int antialias = 0;             ///< n * n rays a pixel at edges, 1 to 16; 0: what suits the style
 
-  std::string backend = "auto";  ///< "auto", "cpu" or "oracle"
+  std::string backend = "auto";  ///< "auto", "cpu", "vulkan-raster" or "oracle"
+  std::string device;            ///< "vulkan-raster": number or part of a name; empty: the best
   int threads = 0;               ///< 0: all. The result does not depend on it.
   /// What the cells that space is cut into may take, bytes; with less every ray takes more time.
   /// The result does not depend on it.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 
+#include "base/result.h"
 #include "trace/camera.h"
 #include "trace/frame.h"
 
@@ -28,6 +29,8 @@ class Tracer {
   /// Facts at any positions; hits.size() == positions.size().
   virtual void probe(const Camera& camera, std::span<const PixelPosition> positions,
                      std::span<Hit> hits) = 0;
+  /// What the machine refused, if it did; then all facts since are of no use.
+  virtual Status status() const { return Done{}; }
 };
 
 }  // namespace whittle

@@ -3,8 +3,10 @@
 namespace whittle {
 namespace {
 
-constexpr Choice<Backend> kBackends[] = {
-    {"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"oracle", Backend::kOracle}};
+constexpr Choice<Backend> kBackends[] = {{"auto", Backend::kAuto},
+                                         {"cpu", Backend::kCpu},
+                                         {"vulkan-raster", Backend::kVulkanRaster},
+                                         {"oracle", Backend::kOracle}};
 constexpr Choice<Pass> kPasses[] = {
     {"color", Pass::kColor}, {"depth", Pass::kDepth}, {"normal", Pass::kNormal}, {"id", Pass::kId}};
 constexpr Choice<FileFormat> kFormats[] = {{"png", FileFormat::kPng}, {"exr", FileFormat::kExr}};

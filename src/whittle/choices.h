@@ -14,9 +14,10 @@
 namespace whittle {
 
 enum class Backend {
-  kAuto,    ///< the fastest that works here
-  kCpu,     ///< cells, walked by every ray
-  kOracle,  ///< the reference: exact, and slow
+  kAuto,          ///< the fastest that works here
+  kCpu,           ///< cells, walked by every ray
+  kVulkanRaster,  ///< cells, rasterised and solved on a Vulkan device
+  kOracle,        ///< the reference: exact, and slow
 };
 
 /// What a PNG shows.

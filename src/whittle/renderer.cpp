@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/workers.h"
+#include "gpu/devices.h"
 #include "image/antialias.h"
 #include "image/cut_faces.h"
 #include "lower/lower.h"
@@ -15,6 +16,7 @@
 #include "subdivide/solid_bounds.h"
 #include "trace/oracle/oracle.h"
 #include "trace/pixel_threshold.h"
+#include "trace/vulkan/raster.h"
 
 namespace whittle {
 namespace {
@@ -50,10 +52,44 @@ struct Renderer::State {
   std::optional<CellTree> cells;
   std::unique_ptr<Tracer> tracer;
   CpuTracer* cpu = nullptr;  ///< the tracer, if it is that one
+  bool is_auto = false;      ///< nobody chose the backend
+  std::shared_ptr<RasterDevice> device;
+  std::string backend_note;
 
   State(const Model& model_, const RendererSettings& settings_)
       : model(model_), settings(settings_), workers(settings_.threads) {}
+
+  Status choose_backend();
+  Status make_tracer(const Camera& camera);
+  /// After a refusal: true if the CPU goes on, else the refusal stands.
+  bool falls_back(const Error& refusal, const Camera& camera);
 };
+
+Status Renderer::State::choose_backend() {
+  is_auto = settings.backend == Backend::kAuto;
+  if (is_auto)
+    settings.backend = gpu::has_graphics_hardware() ? Backend::kVulkanRaster : Backend::kCpu;
+  if (settings.backend != Backend::kVulkanRaster) return Done{};
+  Result<std::shared_ptr<RasterDevice>> opened = open_raster_device({.device = settings.device});
+  if (opened && !(is_auto && is_software(**opened))) {
+    device = *std::move(opened);
+    backend_note = describe(*device);
+    return Done{};
+  }
+  if (!is_auto) return opened.error();
+  settings.backend = Backend::kCpu;
+  if (!opened) backend_note = opened.error().message;
+  return Done{};
+}
+
+bool Renderer::State::falls_back(const Error& refusal, const Camera& camera) {
+  if (!is_auto || settings.backend != Backend::kVulkanRaster) return false;
+  settings.backend = Backend::kCpu;
+  backend_note = refusal.message;
+  tracer.reset();
+  device.reset();
+  return bool(make_tracer(camera));
+}
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
@@ -62,7 +98,7 @@ Renderer::~Renderer() = default;
 
 Result<Renderer> Renderer::make(const Model& model, const RendererSettings& settings) {
   auto state = std::make_unique<State>(model, settings);
-  if (settings.backend == Backend::kAuto) state->settings.backend = Backend::kCpu;
+  if (Status chosen = state->choose_backend(); !chosen) return chosen.error();
   const auto start = Clock::now();
   state->looks = appearances(model);
   Result<Scene> scene = lower(model);
@@ -85,41 +121,58 @@ Camera Renderer::camera(const ViewOptions& options) {
   return make_camera(options, file, framed);
 }
 
-void Renderer::prepare(const Camera& camera) {
-  State& s = *state_;
-  s.tracer.reset();
-  s.cpu = nullptr;
-  if (s.settings.backend == Backend::kOracle) {
-    s.tracer = make_oracle_tracer(s.model, s.settings.threads);
-    return;
+Status Renderer::State::make_tracer(const Camera& camera) {
+  tracer.reset();
+  cpu = nullptr;
+  if (settings.backend == Backend::kOracle) {
+    tracer = make_oracle_tracer(model, settings.threads);
+    return Done{};
   }
   const auto start = Clock::now();
-  s.cells.reset();
-  SubdivideSettings settings = s.settings.subdivide;
-  settings.threads = s.settings.threads;
-  settings.rays = double(camera.width) * double(camera.height);
-  if (s.settings.pixel_threshold > 0) {
-    settings.is_small = [camera, pixels = s.settings.pixel_threshold](const Box& box) {
+  cells.reset();
+  SubdivideSettings subdivision = settings.subdivide;
+  subdivision.threads = settings.threads;
+  subdivision.rays = double(camera.width) * double(camera.height);
+  if (settings.pixel_threshold > 0) {
+    subdivision.is_small = [camera, pixels = settings.pixel_threshold](const Box& box) {
       return is_below_pixels(camera, box, pixels);
     };
   }
-  s.cells = open_cells(s.scene, settings);
-  s.settings.eager ? refine_all(*s.cells, s.workers) : refine_top(*s.cells, s.workers);
-  std::unique_ptr<CpuTracer> cpu = make_cpu_tracer(s.scene, *s.cells, s.settings.threads);
-  s.cpu = cpu.get();
-  s.tracer = std::move(cpu);
-  s.times.subdivide = milliseconds_since(start);
+  cells = open_cells(scene, subdivision);
+  const bool is_raster = settings.backend == Backend::kVulkanRaster;
+  settings.eager || is_raster ? refine_all(*cells, workers) : refine_top(*cells, workers);
+  if (is_raster) {
+    Result<std::unique_ptr<RasterTracer>> raster = make_raster_tracer(device, scene, *cells);
+    if (!raster) return raster.error();
+    tracer = *std::move(raster);
+  } else {
+    std::unique_ptr<CpuTracer> made = make_cpu_tracer(scene, *cells, settings.threads);
+    cpu = made.get();
+    tracer = std::move(made);
+  }
+  times.subdivide = milliseconds_since(start);
+  return Done{};
 }
 
-Frame Renderer::trace(const Camera& camera, const Progress& progress) {
+Status Renderer::prepare(const Camera& camera) {
+  Status made = state_->make_tracer(camera);
+  if (made || state_->falls_back(made.error(), camera)) return Done{};
+  return made;
+}
+
+Result<Frame> Renderer::trace(const Camera& camera, const Progress& progress) {
   const auto start = Clock::now();
   Frame frame = tracer().render(camera, progress);
+  if (const Status status = tracer().status(); !status) {
+    if (!state_->falls_back(status.error(), camera)) return status.error();
+    frame = tracer().render(camera, progress);
+  }
   state_->times.trace = milliseconds_since(start);
   return frame;
 }
 
-Picture Renderer::shade(const Frame& frame, const Camera& camera, const ShadeSettings& settings,
-                        int antialias) {
+Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
+                                const ShadeSettings& settings, int antialias) {
   State& s = *state_;
   const auto start = Clock::now();
   ShadeSettings look = settings;
@@ -128,7 +181,14 @@ Picture Renderer::shade(const Frame& frame, const Camera& camera, const ShadeSet
     look.cut_faces = &*s.cut_faces;
     look.lone_primitive = lone_primitive(s.model);
   }
-  Picture picture = shade_antialiased(tracer(), camera, frame, s.looks, look, antialias, s.workers);
+  const auto shaded = [&] {
+    return shade_antialiased(tracer(), camera, frame, s.looks, look, antialias, s.workers);
+  };
+  Picture picture = shaded();
+  if (const Status status = tracer().status(); !status) {
+    if (!s.falls_back(status.error(), camera)) return status.error();
+    picture = shaded();
+  }
   s.times.shade = milliseconds_since(start);
   return picture;
 }
@@ -140,6 +200,10 @@ Tracer& Renderer::tracer() {
 
 Backend Renderer::backend() const {
   return state_->settings.backend;
+}
+
+const std::string& Renderer::backend_note() const {
+  return state_->backend_note;
 }
 
 const Scene* Renderer::scene() const {

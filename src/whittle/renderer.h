@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "base/result.h"
 #include "image/picture.h"
@@ -35,6 +36,7 @@ constexpr int default_antialias(Style style) {
 
 struct RendererSettings {
   Backend backend = Backend::kAuto;
+  std::string device{};         ///< of a vulkan backend: number or part of a name; empty: the best
   int threads = 0;              ///< 0: all
   SubdivideSettings subdivide;  ///< `threads` and `is_small` are set from here and below
   bool eager = false;           ///< refine all cells at once, and not where rays come
@@ -50,7 +52,9 @@ struct StageTimes {
 /// makes its result anew. The model must outlive the renderer.
 class Renderer {
  public:
-  /// Fails if the model cannot be lowered.
+  /// Fails if the model cannot be lowered, or the chosen backend has no device to work on. kAuto
+  /// takes a graphics card where there is one, and the CPU elsewhere
+  /// (docs/decisions/0022-auto-and-devices.md).
   static Result<Renderer> make(const Model& model, const RendererSettings& settings);
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
@@ -62,15 +66,19 @@ class Renderer {
 
   /// Makes the cells (as far as they are not left to the rays) and the tracer. The camera counts
   /// only if there is a pixel threshold. The oracle has no cells.
-  void prepare(const Camera& camera);
+  /// Fails if the device refuses; with kAuto the CPU goes on in its place, here and below.
+  Status prepare(const Camera& camera);
   /// Precondition of all below: prepare() was called.
-  Frame trace(const Camera& camera, const Progress& progress = {});
-  Picture shade(const Frame& frame, const Camera& camera, const ShadeSettings& settings,
-                int antialias);
+  Result<Frame> trace(const Camera& camera, const Progress& progress = {});
+  Result<Picture> shade(const Frame& frame, const Camera& camera, const ShadeSettings& settings,
+                        int antialias);
 
   Tracer& tracer();
   /// The backend that is used; never kAuto.
   Backend backend() const;
+  /// What the backend works on, as people read it; for kAuto also why it is not what was tried
+  /// first. Empty where there is nothing to say.
+  const std::string& backend_note() const;
   /// Null with the oracle, which does not use it.
   const Scene* scene() const;
   const CellTree* cells() const;

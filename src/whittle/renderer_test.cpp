@@ -33,8 +33,8 @@ Frame frame_of(const Model& model, const RendererSettings& settings) {
   Result<Renderer> renderer = Renderer::make(model, settings);
   EXPECT_TRUE(bool(renderer));
   const Camera camera = renderer->camera(small_view());
-  renderer->prepare(camera);
-  return renderer->trace(camera);
+  EXPECT_TRUE(renderer->prepare(camera));
+  return *renderer->trace(camera);
 }
 
 TEST(Renderer, SizesOfPicturesHaveLimits) {
@@ -81,12 +81,12 @@ TEST(Renderer, StyleOpenscadPaintsWhatTheSolidHoldsNotWhatOwnsIt) {
   ViewOptions down = small_view();
   down.target = Vec3{5, 5, 0}, down.rotation_degrees = Vec3{}, down.distance = 100;
   const Camera camera = renderer->camera(down);
-  renderer->prepare(camera);
-  const Frame frame = renderer->trace(camera);
+  ASSERT_TRUE(renderer->prepare(camera));
+  const Frame frame = *renderer->trace(camera);
   EXPECT_EQ(frame.at(12, 12).id, 1u);
   ShadeSettings settings;
   settings.style = Style::kOpenscad;
-  const Picture picture = renderer->shade(frame, camera, settings, 1);
+  const Picture picture = *renderer->shade(frame, camera, settings, 1);
   const uint8_t* top = picture.at(12, 12);
   EXPECT_GT(top[1], top[0]) << "green, not yellow";
 }
@@ -96,7 +96,7 @@ TEST(Renderer, AutoIsABackendThatIsNamed) {
   Result<Renderer> renderer = Renderer::make(model, {});
   ASSERT_TRUE(bool(renderer));
   EXPECT_NE(renderer->backend(), Backend::kAuto);
-  renderer->prepare(renderer->camera(small_view()));
+  ASSERT_TRUE(renderer->prepare(renderer->camera(small_view())));
   EXPECT_STREQ(renderer->tracer().name(), name_of(backend_choices(), renderer->backend()));
 }
 
@@ -104,7 +104,7 @@ TEST(Renderer, TheOracleHasNeitherHalfSpacesNorCells) {
   const Model model = model_of(kPart);
   Result<Renderer> renderer = Renderer::make(model, {.backend = Backend::kOracle, .subdivide = {}});
   ASSERT_TRUE(bool(renderer));
-  renderer->prepare(renderer->camera(small_view()));
+  ASSERT_TRUE(renderer->prepare(renderer->camera(small_view())));
   EXPECT_STREQ(renderer->tracer().name(), "oracle");
   EXPECT_EQ(renderer->scene(), nullptr);
   EXPECT_EQ(renderer->cells(), nullptr);
@@ -118,10 +118,10 @@ TEST(Renderer, StepsCanBeRepeated) {
   ASSERT_TRUE(bool(renderer));
   std::vector<Picture> pictures;
   for (int i = 0; i < 2; ++i) {
-    renderer->prepare(camera);
-    const Frame frame = renderer->trace(camera);
+    ASSERT_TRUE(renderer->prepare(camera));
+    const Frame frame = *renderer->trace(camera);
     EXPECT_EQ(renderer->trace_stats().rays, uint64_t(24 * 24)) << "the tracer is a new one";
-    pictures.push_back(renderer->shade(frame, camera, {}, 4));
+    pictures.push_back(*renderer->shade(frame, camera, {}, 4));
   }
   EXPECT_EQ(pictures[0].rgba, pictures[1].rgba);
 }
@@ -136,7 +136,7 @@ TEST(Renderer, ThePixelThresholdReachesTheCells) {
     settings.pixel_threshold = threshold;
     Result<Renderer> renderer = Renderer::make(model, settings);
     EXPECT_TRUE(bool(renderer));
-    renderer->prepare(camera);
+    EXPECT_TRUE(renderer->prepare(camera));
     return statistics_of(*renderer->cells()).cell_count();
   };
   EXPECT_EQ(cells(1000), 1u) << "all of the model is smaller";

@@ -138,15 +138,16 @@ Rendering Solid::render(const RenderOptions& options) const {
   const ViewOptions view = view_of(options);
   RendererSettings settings;
   settings.backend = value_of(choose(backend_choices(), "backend", options.backend));
+  settings.device = options.device;
   settings.threads = options.threads;
   settings.subdivide.memory = options.cell_memory;
   Renderer renderer = value_of(Renderer::make(state_->read.model, settings));
   const Camera camera = renderer.camera(view);
-  renderer.prepare(camera);
-  const Frame frame = renderer.trace(camera);
+  value_of(renderer.prepare(camera));
+  const Frame frame = value_of(renderer.trace(camera));
   const int antialias =
       options.antialias > 0 ? options.antialias : default_antialias(shading.style);
-  Picture picture = renderer.shade(frame, camera, shading, antialias);
+  Picture picture = value_of(renderer.shade(frame, camera, shading, antialias));
 
   Rendering made;
   made.width = frame.width;

@@ -20,7 +20,7 @@ class Usage : public ProgramTest {
 };
 
 TEST_F(Usage, HelpOfEveryCommandTellsUsageExamplesAndExitCodes) {
-  for (const char* command : {"", "info", "compare", "bench", "model"}) {
+  for (const char* command : {"", "info", "compare", "bench", "model", "devices"}) {
     std::vector<std::string> arguments{"--help"};
     if (*command != '\0') arguments.insert(arguments.begin(), command);
     const Ended help = run(arguments);
@@ -120,7 +120,7 @@ TEST_F(Usage, UnknownNamesAreAnsweredWithThoseThereAre) {
   expect_refused({"--style", "x"},
                  "--style: unknown style 'x'; there are: studio, blinn, openscad");
   expect_refused({"--backend", "gpu"},
-                 "--backend: unknown backend 'gpu'; there are: auto, cpu, oracle");
+                 "--backend: unknown backend 'gpu'; there are: auto, cpu, vulkan-raster, oracle");
   expect_refused({"--pass", "x"}, "--pass: unknown pass 'x'; there are: color, depth, normal, id");
   expect_refused({"--curves", "x"},
                  "--curves: unknown kind of curves 'x'; there are: auto, facets, smooth");

@@ -1,0 +1,57 @@
+// The pipelines of vulkan-raster and what they bind.
+#pragma once
+
+#include <array>
+
+#include "gpu/memory.h"
+#include "gpu/owned.h"
+
+namespace whittle {
+
+/// Bindings, as the shaders number them.
+enum Binding : uint32_t {
+  kViewBinding,
+  kHalfSpacesBinding,
+  kCellsBinding,
+  kWordsBinding,
+  kPositionsBinding,
+  kSeenBinding,
+  kHitsBinding,
+};
+inline constexpr uint32_t kBindings = 7;
+
+/// What the device draws into.
+inline constexpr VkFormat kSeenFormat = VK_FORMAT_R32_UINT;
+inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+
+/// One cell to draw, as an instance.
+struct Instance {
+  uint32_t cell;
+  float depth;  ///< 0 to 1, rising from front to back
+};
+
+/// Vertices of a cell's box: `kBoxIndices` indices draw the faces that the eye sees; those from
+/// there on, `kSquareIndices` of them, a square over the whole picture.
+inline constexpr std::array<uint16_t, 24> kIndices = {0, 1, 2,  2,  1, 3,  4,  5,  6,  6,  5,  7,
+                                                      8, 9, 10, 10, 9, 11, 12, 13, 14, 14, 13, 15};
+inline constexpr uint32_t kBoxIndices = 18, kSquareIndices = 6;
+
+struct Pipelines {
+  gpu::Owned<VkDescriptorSetLayout> set_layout;
+  gpu::Owned<VkPipelineLayout> layout;
+  gpu::Owned<VkPipeline> draw;
+  gpu::Owned<VkPipeline> resolve;
+};
+Result<Pipelines> make_pipelines(const gpu::Device& device, bool doubles, bool storage);
+
+/// What the pipelines read and write: one set of it.
+struct Bindings {
+  gpu::Owned<VkDescriptorPool> pool;
+  VkDescriptorSet set = VK_NULL_HANDLE;
+};
+Result<Bindings> make_bindings(const gpu::Device& device, const Pipelines& pipelines, bool storage);
+
+/// What kind of descriptor a binding has.
+VkDescriptorType descriptor_type(uint32_t binding, bool storage);
+
+}  // namespace whittle

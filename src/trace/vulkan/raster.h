@@ -1,0 +1,67 @@
+// The vulkan-raster backend: the cells are drawn as boxes, and each fragment solves its cell.
+//
+// Based on: Romeiro, Velho, de Figueiredo 2008, sections 2.3 and 3. What we changed: cells carry
+// numbers of half-spaces, whose parameters are uploaded once; boxes are drawn by few indirect
+// calls; the depth of a fragment is its cell's rank from front to back, so cells in front hide
+// those behind before a fragment runs (docs/decisions/0020-depth-is-rank.md); fragments only say
+// which cell is seen, and the facts are made once a pixel. How it works: docs/vulkan.md.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "subdivide/cells.h"
+#include "trace/tracer.h"
+
+namespace whittle {
+
+/// The numbers that shaders compute with.
+enum class ShaderNumbers { kAuto, kDouble, kFloat };
+
+/// How shaders read the scene. Storage buffers are slow on Mesa's software device, texel buffers
+/// are small on others.
+enum class ShaderReads { kAuto, kTexels, kStorage };
+
+struct RasterSettings {
+  std::string device;  ///< number or part of a name; empty: the best
+  ShaderNumbers numbers = ShaderNumbers::kAuto;
+  ShaderReads reads = ShaderReads::kAuto;
+  bool validate = false;  ///< use Vulkan's validation layer, and keep what it says
+};
+
+/// What the last render() did.
+struct RasterStats {
+  uint64_t cells = 0;     ///< on the device
+  uint64_t drawn = 0;     ///< of them, those that the camera may see
+  double order_ms = 0;    ///< on the host: cells sorted front to back
+  double draw_ms = 0;     ///< on the device, 0 if it cannot tell: cells to pixels
+  double resolve_ms = 0;  ///< pixels to facts
+};
+
+class RasterTracer : public Tracer {
+ public:
+  virtual RasterStats stats() const = 0;
+};
+
+/// A device with the backend's shaders on it, for any number of tracers, used from one thread at a
+/// time.
+class RasterDevice;
+
+/// A kUsage error if there is no such device; a kMachine error if there is no Vulkan, or the device
+/// cannot do it.
+Result<std::shared_ptr<RasterDevice>> open_raster_device(const RasterSettings& settings = {});
+/// Its name and driver, and what its shaders compute with.
+std::string describe(const RasterDevice& device);
+/// Whether it is the CPU that does its work.
+bool is_software(const RasterDevice& device);
+/// All that the validation layer has complained about.
+std::vector<std::string> validation_messages(const RasterDevice& device);
+
+/// Precondition: all cells are refined (subdivide()). `scene` must outlive the tracer. A kMachine
+/// error if the device has no room for the cells.
+Result<std::unique_ptr<RasterTracer>> make_raster_tracer(std::shared_ptr<RasterDevice> device,
+                                                         const Scene& scene, const CellTree& cells);
+
+}  // namespace whittle

@@ -1,0 +1,32 @@
+// A device with all that vulkan-raster needs on it, whatever the scene: it serves many tracers, and
+// shaders are compiled once.
+#pragma once
+
+#include "trace/vulkan/pipelines.h"
+#include "trace/vulkan/raster.h"
+
+namespace whittle {
+
+class RasterDevice {
+ public:
+  static Result<std::shared_ptr<RasterDevice>> open(const RasterSettings& settings);
+
+  const gpu::Device& gpu() const { return *gpu_; }
+  const Pipelines& pipelines() const { return pipelines_; }
+  bool doubles() const { return doubles_; }  ///< shaders compute in double precision
+  bool storage() const { return storage_; }  ///< and read storage buffers, not texel buffers
+  uint32_t tile_side() const { return tile_side_; }  ///< pixels that it draws at a time, at most
+  /// Pixels that a box must be grown by on the screen, so that no rounding loses a pixel.
+  double margin(const Camera& camera) const;
+
+ private:
+  /// Which of the shaders the device takes.
+  Status choose(const RasterSettings& settings);
+
+  std::unique_ptr<gpu::Device> gpu_;  // outlives the pipelines
+  Pipelines pipelines_;
+  bool doubles_ = false, storage_ = false;
+  uint32_t tile_side_ = 0;
+};
+
+}  // namespace whittle

@@ -1,0 +1,158 @@
+#version 460
+// From the cell that a pixel sees to the facts: distance, owner, normal. The rules are those of
+// docs/conventions.md; once a pixel, whatever stands behind it.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "numbers.glsl"
+#include "scene.glsl"
+#include "view.glsl"
+
+// Until a change is found, what held before the last crossings; then, what they changed.
+uint changed[1024 / 32];
+#define WHITTLE_BEFORE_CHANGE \
+  for (uint w = 0; w < truth_words(); ++w) changed[w] = truth[w];
+#include "solve.glsl"
+#include "position.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(set = 0, binding = 5) uniform utexture2D seen;
+layout(set = 0, binding = 6) writeonly buffer Hits { uint hits[]; };
+
+const uint kFacts = 5;  // words a pixel: distance, id, normal
+
+bool is_true(uint i) { return (truth[i / 32] >> (i % 32) & 1) != 0; }
+bool happens(uint i) { return (changed[i / 32] >> (i % 32) & 1) != 0; }
+
+const uint kNone = 0xffffffffu;
+
+// Of the crossings that happen together, the first that the solid would not have changed without,
+// or that would have changed it alone; `size` counts them.
+uint decisive(Change change, out uint size) {
+  uint first = kNone;
+  size = 0;
+  for (uint i = 0; i < leaf.count; ++i)
+    if (happens(i) && size++ == 0) first = i;
+  if (size == 1) return first;
+  for (uint i = 0; i < leaf.count; ++i) {
+    if (!happens(i)) continue;
+    // First without it, then it alone.
+    for (uint alone = 0; alone < 2; ++alone) {
+      bool solid = false;
+      for (uint undo = 0; undo < 2; ++undo) {
+        for (uint w = 0; w < truth_words(); ++w) {
+          const uint it = w == i / 32 ? 1u << (i % 32) : 0;
+          truth[w] ^= alone == 1 ? changed[w] ^ it : it;
+        }
+        if (undo == 0) solid = is_solid();
+      }
+      if ((solid == change.solid) == (alone == 1)) return i;
+    }
+  }
+  return first;
+}
+
+// The leaf's formula in the order of evaluation, two words a step: kind and operand, owner.
+const uint kBeginAnd = 0, kBeginOr = 1, kEnd = 2, kLiteral = 3, kNotLiteral = 4, kElsewhere = 5,
+           kNotElsewhere = 6;
+const uint kMostNested = 32;
+
+// The step whose face owns a change: down the formula, at each group into the first operand that
+// changes. kNone if there is none.
+uint owning_step(uint first, uint count, Vec3 point) {
+  uint conjunctions = 1, before = 1, after = 1;  // bit per open group
+  uint found[kMostNested];
+  found[0] = kNone;
+  uint level = 0;
+  for (uint s = 0; s < count; ++s) {
+    const uint step = word(first + 2 * s), kind = step & 7, operand = step >> 3;
+    bool was, is;
+    uint by = s;
+    if (kind == kBeginAnd || kind == kBeginOr) {
+      ++level;
+      const uint bit = 1u << level;
+      const bool conjunction = kind == kBeginAnd;
+      conjunctions = conjunction ? conjunctions | bit : conjunctions & ~bit;
+      before = conjunction ? before | bit : before & ~bit;
+      after = conjunction ? after | bit : after & ~bit;
+      found[level] = kNone;
+      continue;
+    }
+    if (kind == kEnd) {
+      was = (before >> level & 1) != 0;
+      is = (after >> level & 1) != 0;
+      by = found[level];
+      --level;
+    } else if (kind == kLiteral || kind == kNotLiteral) {
+      is = is_true(operand) != (kind == kNotLiteral);
+      was = is != happens(operand);
+    } else {
+      const Quadric f = half_space_quadric(operand, half_space_kind(operand));
+      was = is = (quadric_value(f, point - half_space_center(operand)) <= K(0)) !=
+                 (kind == kNotElsewhere);
+    }
+    const uint bit = 1u << level;
+    const bool conjunction = (conjunctions & bit) != 0;
+    if (was != conjunction) before = conjunction ? before & ~bit : before | bit;
+    if (is != conjunction) after = conjunction ? after & ~bit : after | bit;
+    if (was != is && found[level] == kNone) found[level] = by;
+  }
+  return found[0];
+}
+
+void main() {
+  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, view.tile_size))) return;
+  const uint at = uint(pixel.y * view.tile_size.x + pixel.x) * kFacts;
+  const uint cell = texelFetch(seen, pixel, 0).x;
+  Change change;
+  bool is_hit = cell != 0 && enter(cell - 1, make_ray(position_of(pixel)));
+  if (is_hit) is_hit = find_change(change);
+  if (!is_hit) {
+    hits[at] = 0x7f800000u;  // infinity
+    for (uint i = 1; i < kFacts; ++i) hits[at + i] = 0;
+    return;
+  }
+  for (uint w = 0; w < truth_words(); ++w) changed[w] ^= truth[w];
+
+  const Vec3 point = Vec3(ray.origin.x + ray.direction.x * change.t,
+                          ray.origin.y + ray.direction.y * change.t,
+                          ray.origin.z + ray.direction.z * change.t);
+  uint size;
+  uint literal = decisive(change, size);
+  uint id = word(leaf.first + 2 * literal + 1);
+  const uint first_step = leaf.first + 2 * leaf.count + 1, steps = word(first_step - 1);
+  if (steps > 0 && (id == 0 || size > 1)) {
+    uint step = owning_step(first_step, steps, point);
+    // No operand changes: then the first face on that half-space has it.
+    for (uint s = 0; s < steps && step == kNone; ++s) {
+      const uint kind = word(first_step + 2 * s) & 7;
+      if ((kind == kLiteral || kind == kNotLiteral) && word(first_step + 2 * s) >> 3 == literal)
+        step = s;
+    }
+    if (step != kNone) {
+      id = word(first_step + 2 * step + 1);
+      const uint operand = word(first_step + 2 * step);
+      if (((operand & 7) == kLiteral || (operand & 7) == kNotLiteral) &&
+          happens(operand >> 3))
+        literal = operand >> 3;
+    }
+  }
+  const uint half_space = literal_word(literal) >> 1;
+  const bool complement = (literal_word(literal) & 1) != 0;
+  const Vec3 center = half_space_center(half_space);
+  const Quadric f = half_space_quadric(half_space, half_space_kind(half_space));
+  const Vec3 gradient = quadric_half_gradient(
+      f, Vec3(point.x - center.x, point.y - center.y, point.z - center.z));
+  // The gradient points out of the half-space; that is out of the solid too if both were entered or
+  // both left.
+  const bool outward = (is_true(literal) != complement) == change.solid;
+  const Real size_of = sqrt(dot3(gradient, gradient));
+  const Real by = select(size_of > K(0), K(1) / size_of, K(1));
+  const vec3 normal = vec3(gradient * by) * (outward ? 1.0 : -1.0);
+  hits[at] = floatBitsToUint(float(change.t + ray.shift));
+  hits[at + 1] = id;
+  hits[at + 2] = floatBitsToUint(normal.x);
+  hits[at + 3] = floatBitsToUint(normal.y);
+  hits[at + 4] = floatBitsToUint(normal.z);
+}

@@ -1,0 +1,72 @@
+// The scene's data as the device has it; src/trace/vulkan/flatten.h says what is where. Read from
+// texel buffers or from storage buffers (WHITTLE_STORAGE): which is faster depends on the device.
+#if WHITTLE_STORAGE
+layout(set = 0, binding = 1) readonly buffer HalfSpaces { uvec4 half_space_data[]; };
+layout(set = 0, binding = 2) readonly buffer Cells { uvec4 cell_data[]; };
+layout(set = 0, binding = 3) readonly buffer Words { uint word_data[]; };
+uvec4 half_space_words(uint i) { return half_space_data[i]; }
+uvec4 cell_words(uint i) { return cell_data[i]; }
+uint word(uint i) { return word_data[i]; }
+#else
+layout(set = 0, binding = 1) uniform usamplerBuffer half_space_data;
+layout(set = 0, binding = 2) uniform usamplerBuffer cell_data;
+layout(set = 0, binding = 3) uniform usamplerBuffer word_data;
+uvec4 half_space_words(uint i) { return texelFetch(half_space_data, int(i)); }
+uvec4 cell_words(uint i) { return texelFetch(cell_data, int(i)); }
+uint word(uint i) { return texelFetch(word_data, int(i)).x; }
+#endif
+
+const uint kConjunction = 0, kDisjunction = 1, kTable = 2, kProgram = 3;
+
+struct Box {
+  Vec3 lo, hi;
+};
+
+Box cell_box(uint cell) {
+  const uvec4 a = cell_words(cell * 4), b = cell_words(cell * 4 + 1), c = cell_words(cell * 4 + 2);
+  return Box(Vec3(to_real(a.xy), to_real(a.zw), to_real(b.xy)),
+             Vec3(to_real(b.zw), to_real(c.xy), to_real(c.zw)));
+}
+
+struct Leaf {
+  uint kind, count;
+  uint first;  // of its literals, two words each: literal, owner
+  uvec2 rule;  // kTable: the table; kProgram: x is the first step
+};
+
+Leaf cell_leaf(uint cell) {
+  const uvec4 w = cell_words(cell * 4 + 3);
+  return Leaf(w.y & 3, w.y >> 2, w.x, w.zw);
+}
+
+Vec3 half_space_center(uint i) {
+  const uvec4 a = half_space_words(i * 7);
+  return Vec3(to_real(a.xy), to_real(a.zw), to_real(half_space_words(i * 7 + 1).xy));
+}
+
+const uint kPlane = 0, kSphere = 1, kQuadric = 2, kSmallQuadric = 3;
+uint half_space_kind(uint i) { return half_space_words(i * 7 + 1).z; }
+
+// Of a plane or quadric. A plane's second degree is zero and not stored.
+Quadric half_space_quadric(uint i, uint kind) {
+  const uvec4 a = half_space_words(i * 7 + 2), b = half_space_words(i * 7 + 3);
+  Quadric f;
+  if (kind == kPlane) {
+    f.diag = Vec3(0);
+    f.off = Vec3(0);
+    f.b = Vec3(to_real(a.xy), to_real(a.zw), to_real(b.xy));
+    f.c = K(0);
+  } else if (kind == kSphere) {
+    f.diag = Vec3(to_real(a.xy));
+    f.off = Vec3(0);
+    f.b = Vec3(0);
+    f.c = to_real(a.zw);
+  } else {
+    const uvec4 c = half_space_words(i * 7 + 4), d = half_space_words(i * 7 + 5);
+    f.diag = Vec3(to_real(a.xy), to_real(a.zw), to_real(b.xy));
+    f.off = Vec3(to_real(b.zw), to_real(c.xy), to_real(c.zw));
+    f.b = Vec3(to_real(d.xy), to_real(d.zw), to_real(half_space_words(i * 7 + 6).xy));
+    f.c = to_real(half_space_words(i * 7 + 6).zw);
+  }
+  return f;
+}

@@ -1,0 +1,32 @@
+// What shaders know of the camera: the uniform block of shaders/view.glsl.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "lower/scene.h"
+#include "trace/camera.h"
+#include "trace/pixel_rect.h"
+
+namespace whittle {
+
+/// Laid out as std140 has it.
+struct ViewData {
+  std::array<uint32_t, 40> numbers{};  ///< two words each
+  std::array<int32_t, 2> tile_origin{}, tile_size{};
+  uint32_t orthographic = 0;
+  uint32_t probes = 0;
+  float margin = 0;
+  uint32_t unused = 0;
+};
+static_assert(sizeof(ViewData) == 192);
+
+/// The camera's eye in the scene's local coordinates.
+Vec3 local_eye(const Scene& scene, const Camera& camera);
+
+/// `margin`: pixels that boxes are grown by on the screen. `probes`: every pixel of the tile looks
+/// at a place of its own.
+ViewData make_view_data(const Scene& scene, const Camera& camera, const PixelRect& tile,
+                        bool doubles, bool probes, double margin);
+
+}  // namespace whittle

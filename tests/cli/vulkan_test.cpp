@@ -1,0 +1,89 @@
+// Vulkan as the program's users meet it: there, not there, or not built.
+#include <cstdlib>
+
+#include "support/program.h"
+
+namespace whittle {
+namespace {
+
+/// An environment variable that has another value for as long as this lives.
+class Environment {
+ public:
+  Environment(const char* name, const char* value) : name_(name) {
+    if (const char* old = std::getenv(name)) old_ = old;
+    ::setenv(name, value, 1);
+  }
+  ~Environment() { old_.empty() ? ::unsetenv(name_) : ::setenv(name_, old_.c_str(), 1); }
+  Environment(const Environment&) = delete;
+
+ private:
+  const char* name_;
+  std::string old_;
+};
+
+class Vulkan : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("part.csg", "difference() { cube(20, center = true); sphere(12); }\n");
+  }
+  Ended render(const std::string& backend, const std::string& out) const {
+    return run({"part.csg", "-o", out, "--backend", backend, "--imgsize", "48,36"});
+  }
+
+ private:
+  // Mesa's software driver forgets 240 bytes when it ends.
+  Environment leaks_{"ASAN_OPTIONS", "detect_leaks=0"};
+};
+
+#if WHITTLE_HAS_VULKAN
+
+TEST_F(Vulkan, ShowsWhatTheCpuShows) {
+  const Ended cpu = render("cpu", "cpu.exr"), raster = render("vulkan-raster", "raster.exr");
+  EXPECT_EQ(raster.exit_code, 0) << raster.err;
+  EXPECT_EQ(raster.err, "");
+  EXPECT_EQ(run({"compare", "cpu.exr", "raster.exr"}).exit_code, 0);
+}
+
+TEST_F(Vulkan, DevicesAreListedAndChosen) {
+  const Ended list = run({"devices"});
+  EXPECT_EQ(list.exit_code, 0) << list.err;
+  EXPECT_EQ(list.out.substr(0, 3), "0  ");
+  EXPECT_EQ(run({"devices", "--json"}).out.substr(0, 2), "[\n");
+  const Ended none =
+      run({"part.csg", "-o", "x.png", "--backend", "vulkan-raster", "--device", "voodoo"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_EQ(none.err.find("whittle: no Vulkan device 'voodoo'; there are: 0 ("), 0u) << none.err;
+  EXPECT_EQ(files(), std::vector<std::string>{"part.csg"});
+}
+
+TEST_F(Vulkan, WithoutADriverOneLineSaysSoAndAutoGoesOn) {
+  const Environment drivers("VK_DRIVER_FILES", "/nowhere.json");
+  const Environment older_loaders("VK_ICD_FILENAMES", "/nowhere.json");
+  const std::string message =
+      "whittle: there is no Vulkan driver here (Debian's mesa-vulkan-drivers has one that needs no "
+      "GPU)\n";
+  const Ended refused = render("vulkan-raster", "x.png"), list = run({"devices"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_EQ(refused.err, message);
+  EXPECT_EQ(files(), std::vector<std::string>{"part.csg"});
+  EXPECT_EQ(list.exit_code, 3);
+  EXPECT_EQ(list.err, message);
+  EXPECT_EQ(render("auto", "x.png").exit_code, 0);
+}
+
+#else
+
+TEST_F(Vulkan, NotBuiltOneLineSaysSoAndAutoGoesOn) {
+  for (const Ended& refused : {render("vulkan-raster", "x.png"), run({"devices"})}) {
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_EQ(refused.err, "whittle: this whittle was built without Vulkan (WHITTLE_VULKAN=OFF)\n");
+  }
+  EXPECT_EQ(files(), std::vector<std::string>{"part.csg"});
+  EXPECT_EQ(render("auto", "x.png").exit_code, 0);
+}
+
+#endif
+
+}  // namespace
+}  // namespace whittle
