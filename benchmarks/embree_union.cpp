@@ -280,8 +280,8 @@ int compare(const Options& o) {
   ViewOptions view;
   view.width = view.height = o.size;
   const Camera camera = renderer->camera(view);
-  renderer->prepare(camera);
-  renderer->trace(camera);
+  if (const Status done = renderer->prepare(camera); !done) fail(done.error().message);
+  if (const Result<Frame> frame = renderer->trace(camera); !frame) fail(frame.error().message);
 
   const std::vector<Ball> balls = balls_of(read->model);
   const EmbreeUnion embree(balls, o.threads);
@@ -311,7 +311,7 @@ int compare(const Options& o) {
   }
   std::vector<double> ours;
   for (int i = 0; i < o.repeat; ++i) {
-    ours.push_back(milliseconds([&] { renderer->trace(camera); }));
+    ours.push_back(milliseconds([&] { WHITTLE_CHECK(renderer->trace(camera)); }));
     for (Variant& v : variants) {
       v.times.push_back(milliseconds([&] { embree.render(camera, v.packet, v.coherent, seen); }));
     }

@@ -92,7 +92,7 @@ void solve_leaf(benchmark::State& state, const char* text) {
   ViewOptions view;
   view.width = view.height = 64;
   const Camera camera = renderer->camera(view);
-  renderer->prepare(camera);
+  WHITTLE_CHECK(renderer->prepare(camera));
   for (auto _ : state) benchmark::DoNotOptimize(renderer->trace(camera)->hits.data());
   state.SetItemsProcessed(int64_t(state.iterations()) * camera.width * camera.height);
 }
@@ -107,7 +107,7 @@ void shade_pixels(benchmark::State& state) {
   settings.threads = 1;
   Result<Renderer> renderer = Renderer::make(read->model, settings);
   const Camera camera = renderer->camera({});
-  renderer->prepare(camera);
+  WHITTLE_CHECK(renderer->prepare(camera));
   const Frame frame = *renderer->trace(camera);
   ShadeSettings look;
   look.style = Style(state.range(0));
