@@ -48,6 +48,12 @@ constexpr uint64_t kBusy = 1u << 7;
 constexpr int kSpins = 200;
 constexpr std::chrono::microseconds kNap{20};
 
+/// A ray that meets a box meets a part of it about as often as the part has surface of it.
+double half_area(const Box& box) {
+  const Vec3 size = box.size();
+  return size.x * size.y + size.y * size.z + size.z * size.x;
+}
+
 bool has_units(std::span<const Token> formula) {
   return std::any_of(formula.begin(), formula.end(),
                      [](Token token) { return token.kind() == TokenKind::kUnit; });
@@ -113,6 +119,13 @@ CellLink Refiner::refine(const Cell& cell, const OpenCell& open, const Helpers* 
   if (is_wide(open)) {
     if (const std::optional<CellLink> grid = split_wide(cell, open, helpers)) return *grid;
   }
+  constexpr uint32_t kSplits = 3;
+  if (settings_.split == SplitRule::kOctree && open.depth + kSplits <= kMostDepth) {
+    const std::vector<std::span<const Token>> all(size_t(1) << kSplits, open.tokens());
+    const SplitGrid grid = make_grid(open.box, kSplits, settings_.split, open.depth);
+    if (const std::optional<CellLink> eight = open_parts(cell, open, grid, all, nullptr))
+      return *eight;
+  }
   return split(cell, open);
 }
 
@@ -166,42 +179,60 @@ CellLink Refiner::leaf() {
   return link;
 }
 
+/// Cuts a cell along an axis.
+void Refiner::halve(const OpenCell& parent, int axis, Halves& halves) {
+  halves.axis = axis;
+  halves.at = parent.box.center()[axis];
+  halves.cost = 0;
+  for (int side = 0; side < 2; ++side) {
+    OpenCell& part = halves.part[side];
+    part = {};
+    part.box = parent.box;
+    (side == 0 ? part.box.hi : part.box.lo)[axis] = halves.at;
+    stats_.classified += parent.token_count;
+    halves.truth[side] = simplifier_.simplify(parent.tokens(), part.box,
+                                              parent.literals <= kExpandAll, halves.formula[side]);
+    if (halves.truth[side] != Truth::kVaries) continue;
+    part.literals = expanded_size(scene_, halves.formula[side]);
+    halves.cost += half_area(part.box) * part.literals;
+  }
+}
+
 CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
-  const int axis = split_axis(parent.box.size(), settings_.split, parent.depth);
-  const double at = parent.box.center()[axis];
-  OpenCell child[2];
-  Truth truth[2];
+  const int first = split_axis(parent.box.size(), settings_.split, parent.depth);
+  halve(parent, first, halves_);
+  for (int axis = 0; axis < 3 && settings_.split == SplitRule::kCost; ++axis) {
+    if (axis == first) continue;
+    halve(parent, axis, others_);
+    if (others_.cost < halves_.cost) std::swap(others_, halves_);
+  }
   size_t unsplit[2] = {0, 0}, weight[2] = {0, 0};
   for (int side = 0; side < 2; ++side) {
-    child[side].box = parent.box;
-    (side == 0 ? child[side].box.hi : child[side].box.lo)[axis] = at;
-    stats_.classified += parent.token_count;
-    truth[side] = simplifier_.simplify(parent.tokens(), child[side].box,
-                                       parent.literals <= kExpandAll, child_formula_[side]);
-    child[side].literals = expanded_size(scene_, child_formula_[side]);
-    if (truth[side] != Truth::kVaries) continue;
-    unsplit[side] = bytes_unsplit(child[side].literals, child_formula_[side].size());
-    weight[side] = child[side].literals + kFew;
+    if (halves_.truth[side] != Truth::kVaries) continue;
+    unsplit[side] = bytes_unsplit(halves_.part[side].literals, halves_.formula[side].size());
+    weight[side] = halves_.part[side].literals + kFew;
   }
-  const bool stalls = child[0].literals >= parent.literals && child[1].literals >= parent.literals;
+  const bool stalls = std::ranges::all_of(
+      halves_.part, [&](const OpenCell& part) { return part.literals >= parent.literals; });
   const size_t taken = 2 * sizeof(Cell) + unsplit[0] + unsplit[1];
   const double rest = parent.memory > taken ? double(parent.memory - taken) : 0;
   Cell* const cells = new_pair();
   stats_.depth = std::max(stats_.depth, parent.depth + 1);
   for (int side = 0; side < 2; ++side) {
-    CellLink link = decided(truth[side] == Truth::kTrue);
-    if (truth[side] == Truth::kVaries) {
-      child[side].depth = parent.depth + 1;
-      child[side].stalled = stalls ? parent.stalled + 1 : 0;
-      child[side].memory =
+    CellLink link = decided(halves_.truth[side] == Truth::kTrue);
+    if (halves_.truth[side] == Truth::kVaries) {
+      OpenCell& part = halves_.part[side];
+      part.depth = parent.depth + 1;
+      part.stalled = stalls ? parent.stalled + 1 : 0;
+      part.memory =
           unsplit[side] + size_t(rest * double(weight[side]) / double(weight[0] + weight[1]));
-      link = open(child[side], child_formula_[side]);
+      link = open(part, halves_.formula[side]);
     }
     cells[side].bits.store(link.bits(), std::memory_order_relaxed);
     ++stats_.cells[size_t(link.kind())];
   }
-  cell.split = at;
-  return {CellKind::kNode, cells, axis};
+  cell.split = halves_.at;
+  return {CellKind::kNode, cells, halves_.axis};
 }
 
 /// Whether the cell is worth splitting many times at once. Where small cells end early, each split
@@ -211,42 +242,57 @@ bool Refiner::is_wide(const OpenCell& open) const {
          operand_count(open.tokens()) >= kWide;
 }
 
-std::optional<CellLink> Refiner::split_wide(const Cell& cell, const OpenCell& parent,
-                                            const Helpers* helpers) {
-  const auto loop = [&](size_t n, size_t grain, const auto& body) {
+/// A loop that helpers share, if there are any.
+Loop Refiner::loop_over(const Helpers* helpers) {
+  return [helpers](size_t n, size_t grain, const auto& body) {
     if (helpers == nullptr)
       body(0, n, 0);
     else
       helpers->workers.for_parts(n, grain, body);
   };
+}
+
+std::optional<CellLink> Refiner::split_wide(const Cell& cell, const OpenCell& parent,
+                                            const Helpers* helpers) {
   const size_t wanted = parent.token_count / kWantedOperands;
   const int splits = std::min(int(std::bit_width(wanted)), kMostSplitsAtOnce);
   const SplitGrid grid = make_grid(parent.box, splits, settings_.split, parent.depth);
   const std::vector<Formula> dealt =
-      deal_operands(scene_, parent.tokens(), grid, region_edge_ * kCellMargin, loop);
+      deal_operands(scene_, parent.tokens(), grid, region_edge_ * kCellMargin, loop_over(helpers));
   if (dealt.empty()) return std::nullopt;
+  return open_parts(cell, parent, grid, {dealt.begin(), dealt.end()}, helpers);
+}
 
+/// Splits a cell into the parts of a grid, of each of which a formula is known that is right there.
+/// Nothing if the memory does not suffice for that.
+std::optional<CellLink> Refiner::open_parts(const Cell& cell, const OpenCell& parent,
+                                            const SplitGrid& grid,
+                                            const std::vector<std::span<const Token>>& formulas,
+                                            const Helpers* helpers) {
+  const Loop loop = loop_over(helpers);
+  const size_t parts = formulas.size();
+  const auto splits = uint32_t(grid.axes.size());
   // Nothing gets longer from here on, so if this fits all does.
-  std::vector<uint32_t> literals(dealt.size());
-  loop(dealt.size(), 1, [&](size_t first, size_t last, size_t) {
+  std::vector<uint32_t> literals(parts);
+  loop(parts, 1, [&](size_t first, size_t last, size_t) {
     for (size_t part = first; part < last; ++part)
-      literals[part] = expanded_size(scene_, dealt[part]);
+      literals[part] = expanded_size(scene_, formulas[part]);
   });
   size_t most = 0;
-  for (size_t part = 0; part < dealt.size(); ++part)
-    most += 2 * sizeof(Cell) + bytes_unsplit(literals[part], dealt[part].size());
+  for (size_t part = 0; part < parts; ++part)
+    most += 2 * sizeof(Cell) + bytes_unsplit(literals[part], formulas[part].size());
   if (most > parent.memory) return std::nullopt;
 
   // Every part by itself.
-  std::vector<CellLink> links(dealt.size());
-  std::vector<OpenCell*> opened(dealt.size());
-  loop(dealt.size(), 1, [&](size_t first, size_t last, size_t worker) {
+  std::vector<CellLink> links(parts);
+  std::vector<OpenCell*> opened(parts);
+  loop(parts, 1, [&](size_t first, size_t last, size_t worker) {
     Refiner& refiner = helpers == nullptr ? *this : helpers->refiner_of(worker);
     for (size_t part = first; part < last; ++part) {
-      refiner.stats_.classified += dealt[part].size();
-      OpenCell child{grid.part(part), 0, parent.depth + uint32_t(splits), 0, 0, 0};
-      Formula& formula = refiner.child_formula_[0];
-      const Truth truth = refiner.simplifier_.simplify(dealt[part], child.box,
+      refiner.stats_.classified += formulas[part].size();
+      OpenCell child{grid.part(part), 0, parent.depth + splits, 0, 0, 0};
+      Formula& formula = refiner.halves_.formula[0];
+      const Truth truth = refiner.simplifier_.simplify(formulas[part], child.box,
                                                        literals[part] <= kExpandAll, formula);
       links[part] = decided(truth == Truth::kTrue);
       if (truth != Truth::kVaries) continue;
@@ -256,8 +302,10 @@ std::optional<CellLink> Refiner::split_wide(const Cell& cell, const OpenCell& pa
     }
   });
 
-  size_t taken = 2 * sizeof(Cell) * dealt.size(), weights = 0;
+  size_t taken = 2 * sizeof(Cell) * parts, weights = 0;
+  bool stalls = true;
   for (const OpenCell* open : opened) {
+    stalls = stalls && open != nullptr && open->literals >= parent.literals;
     if (open == nullptr) continue;
     taken += bytes_unsplit(open->literals, open->token_count);
     weights += open->literals + kFew;
@@ -265,10 +313,11 @@ std::optional<CellLink> Refiner::split_wide(const Cell& cell, const OpenCell& pa
   const double rest = parent.memory > taken ? double(parent.memory - taken) : 0;
   for (OpenCell* open : opened) {
     if (open == nullptr) continue;
+    open->stalled = stalls ? parent.stalled + splits : 0;
     open->memory = bytes_unsplit(open->literals, open->token_count) +
                    size_t(rest * double(open->literals + kFew) / double(weights));
   }
-  stats_.depth = std::max(stats_.depth, parent.depth + uint32_t(splits));
+  stats_.depth = std::max(stats_.depth, parent.depth + splits);
   return join(cell, grid, links);
 }
 

@@ -59,6 +59,16 @@ class Refiner {
 
   CellLink refine(const Cell& cell, const OpenCell& open, const Helpers* helpers);
   bool ends(const OpenCell& open, CellLink& link);
+  /// The two parts of a cell cut in the middle: boxes, truths, formulas.
+  struct Halves {
+    int axis = 0;
+    double at = 0;
+    OpenCell part[2] = {};
+    Truth truth[2] = {};
+    Formula formula[2];
+    double cost = 0;  ///< literals that a ray through the parent will meet, up to a factor
+  };
+  void halve(const OpenCell& parent, int axis, Halves& halves);
   CellLink split(const Cell& cell, const OpenCell& open);
   CellLink leaf();
   bool has_few_half_spaces(std::span<const Token> formula) const;
@@ -66,6 +76,11 @@ class Refiner {
   bool is_wide(const OpenCell& open) const;
   std::optional<CellLink> split_wide(const Cell& cell, const OpenCell& parent,
                                      const Helpers* helpers);
+  std::optional<CellLink> open_parts(const Cell& cell, const OpenCell& parent,
+                                     const SplitGrid& grid,
+                                     const std::vector<std::span<const Token>>& formulas,
+                                     const Helpers* helpers);
+  static Loop loop_over(const Helpers* helpers);
   CellLink join(const Cell& cell, const SplitGrid& grid, std::vector<CellLink> links);
   Cell* new_pair();
   /// A cell of its own, open or decided already.
@@ -79,7 +94,8 @@ class Refiner {
   BlockPool open_cells_;
   Simplifier simplifier_;
   LeafAnalysis analysis_;
-  Formula child_formula_[2], expanded_;
+  Halves halves_, others_;
+  Formula expanded_;
   std::vector<const Cell*> pending_;
   /// Counters wrap: a cell that one refiner opened may be refined by another.
   SubdivideStats stats_;

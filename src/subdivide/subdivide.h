@@ -14,14 +14,18 @@
 
 namespace whittle {
 
+/// Cells are cut in the middle, and these say along which axis.
 enum class SplitRule {
-  kLongest,  ///< the longest edge, in the middle
-  kXyz,      ///< X, Y, Z in turn, in the middle: the paper's
+  kLongest,  ///< the longest edge
+  kXyz,      ///< X, Y, Z in turn: the paper's
+  kOctree,   ///< all three at once, as octrees do; the formula is simplified for the eight parts
+             ///< only
+  kCost,     ///< that along which rays will meet the fewest literals
 };
 
-/// Which axis is cut of a cell of that size.
+/// Which axis is cut of a cell of that size, if its formula is not asked.
 inline int split_axis(Vec3 size, SplitRule rule, uint32_t depth) {
-  if (rule == SplitRule::kXyz) return int(depth % 3);
+  if (rule == SplitRule::kXyz || rule == SplitRule::kOctree) return int(depth % 3);
   return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
 

@@ -120,6 +120,14 @@ std::vector<Rules> all_rules() {
   SubdivideSettings poor;
   poor.leaf_size = 2, poor.memory = 20'000;
   rules.push_back({"20 kB", poor});
+  SubdivideSettings octree;
+  octree.split = SplitRule::kOctree;
+  rules.push_back({"octree", octree});
+  octree.memory = 20'000;
+  rules.push_back({"octree, 20 kB", octree});
+  SubdivideSettings cost;
+  cost.split = SplitRule::kCost;
+  rules.push_back({"by cost", cost});
   return rules;
 }
 
@@ -332,6 +340,48 @@ TEST(Subdivide, CopiesOfOneBodyAreOneLeaf) {
   SubdivideSettings settings;
   settings.leaf_size = 6;
   EXPECT_EQ(cell_count(subdivide(scene, settings)), 1u);
+}
+
+TEST(Subdivide, ByCostAStackOfPlatesIsTakenApartFirst) {
+  std::string plates;
+  for (int i = 0; i < 20; ++i)
+    plates += "translate([0,0," + std::to_string(2 * i) + "]) cube([100,100,1]);";
+  const Scene scene = lowered("difference(){ union(){" + plates + "} cylinder(h=100, r=5); }");
+  SubdivideSettings settings;
+  const uint64_t longest = cell_count(subdivide(scene, settings));
+  settings.split = SplitRule::kCost;
+  EXPECT_LT(cell_count(subdivide(scene, settings)) * 5, longest);
+}
+
+TEST(Subdivide, AnOctreeCutsAlongAllAxesOrNone) {
+  // A ball's surface is in all eight parts, and in most parts of these.
+  const Scene scene = lowered("difference(){ sphere(10); sphere(9.9); }");
+  SubdivideSettings settings;
+  settings.split = SplitRule::kOctree;
+  settings.leaf_size = 1;
+  const CellTree tree = subdivide(scene, settings);
+  struct Visit {
+    const Cell* cell;
+    uint32_t depth;
+  };
+  std::vector<Visit> stack{{tree.root, 0}};
+  size_t splits = 0;
+  while (!stack.empty()) {
+    const auto [cell, depth] = stack.back();
+    stack.pop_back();
+    const CellLink link = cell->link();
+    if (link.kind() != CellKind::kNode) {
+      // Parts that are decided alike may have been joined again; what has a surface has not.
+      if (link.kind() >= CellKind::kConjunction) {
+        EXPECT_EQ(depth % 3, 0u);
+      }
+      continue;
+    }
+    ++splits;
+    EXPECT_EQ(link.axis(), int(depth % 3));
+    for (int side = 0; side < 2; ++side) stack.push_back({link.children() + side, depth + 1});
+  }
+  EXPECT_GT(splits, 100u);
 }
 
 TEST(Subdivide, LeavesHoldAtMostKWhereCellsMayShrink) {

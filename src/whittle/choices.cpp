@@ -16,7 +16,9 @@ constexpr Choice<Curves> kCurves[] = {
     {"auto", Curves::kAuto}, {"facets", Curves::kFacets}, {"smooth", Curves::kSmooth}};
 constexpr Choice<bool> kMatrices[] = {{"polished", true}, {"as-written", false}};
 constexpr Choice<SplitRule> kSplits[] = {{"longest", SplitRule::kLongest},
-                                         {"xyz", SplitRule::kXyz}};
+                                         {"xyz", SplitRule::kXyz},
+                                         {"octree", SplitRule::kOctree},
+                                         {"cost", SplitRule::kCost}};
 constexpr Choice<bool> kProjections[] = {
     {"perspective", false}, {"p", false}, {"orthogonal", true}, {"ortho", true}, {"o", true}};
 constexpr Choice<bool> kSmallCells[] = {{"trace", false}, {"ignore", true}};

@@ -47,6 +47,10 @@ std::vector<SubdivideSettings> all_leaf_sizes() {
   SubdivideSettings paper = leaf_size(2);
   paper.split = SplitRule::kXyz, paper.leaf = LeafRule::kPrimitives;
   rules.push_back(paper);
+  for (const SplitRule split : {SplitRule::kOctree, SplitRule::kCost}) {
+    rules.push_back(leaf_size(kAutoLeafSize));
+    rules.back().split = split;
+  }
   return rules;
 }
 

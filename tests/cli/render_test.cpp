@@ -135,6 +135,8 @@ TEST_F(Render, NoSettingThatIsForSpeedChangesAFact) {
       {"--leaf-size", "1"},
       {"--leaf-size", "40"},
       {"--split", "xyz"},
+      {"--split", "octree"},
+      {"--split", "cost"},
       {"--pixel-threshold", "8"},
       {"--backend", "oracle"},
       {"--paper", "--small-cells", "trace"},

@@ -127,7 +127,8 @@ TEST_F(Usage, UnknownNamesAreAnsweredWithThoseThereAre) {
   expect_refused({"--projection", "x"},
                  "--projection: unknown projection 'x'; there are: perspective, p, orthogonal, "
                  "ortho, o");
-  expect_refused({"--split", "x"}, "--split: unknown split rule 'x'; there are: longest, xyz");
+  expect_refused({"--split", "x"},
+                 "--split: unknown split rule 'x'; there are: longest, xyz, octree, cost");
   expect_refused({"--small-cells", "x"},
                  "--small-cells: unknown fate of small cells 'x'; there are: trace, ignore");
   expect_refused({"--colorscheme", "Foo"},
