@@ -50,10 +50,10 @@ def make_model(model, path, whittle=WHITTLE):
     call(whittle, "model", *(part for part in parts.groups() if part), "-o", path)
 
 
-def write_results(kind, content):
-    """Writes benchmarks/results/KIND-DATE.json, with machine and date, whole or not at all."""
-    path = os.path.join(RESULTS, f"{kind}-{today()}.json")
-    os.makedirs(RESULTS, exist_ok=True)
+def write_results(kind, content, folder=RESULTS):
+    """Writes KIND-DATE.json, with machine and date, whole or not at all."""
+    path = os.path.join(folder, f"{kind}-{today()}.json")
+    os.makedirs(folder, exist_ok=True)
     with open(path + ".part", "w") as file:
         json.dump({"date": today(), "machine": machine(), **content}, file, indent=2)
         file.write("\n")

@@ -9,10 +9,10 @@ import subprocess
 from common import RESULTS, fail
 
 
-def latest(kind):
-    paths = sorted(glob.glob(os.path.join(RESULTS, f"{kind}-*.json")))
+def latest(kind, folder=RESULTS):
+    paths = sorted(glob.glob(os.path.join(folder, f"{kind}-*.json")))
     if not paths:
-        fail(f"there is no benchmarks/results/{kind}-DATE.json")
+        fail(f"there is no {os.path.relpath(folder)}/{kind}-DATE.json")
     with open(paths[-1]) as file:
         return {"file": os.path.basename(paths[-1]), **json.load(file)}
 

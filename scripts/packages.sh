@@ -31,6 +31,14 @@ test_packages=(
   xvfb                # a display for it
 )
 
+report_packages=(
+  mesa-vulkan-drivers  # a Vulkan device that needs no GPU
+  povray               # what the paper compares with
+  python3-pil          # pictures of pictures
+  gnuplot-nox          # charts
+  fonts-dejavu-core    # letters in them
+)
+
 lint_packages=(
   clang-format        # scripts/format.sh
   clang-tidy          # scripts/tidy.sh
