@@ -167,27 +167,4 @@ Result<Pipelines> make_pipelines(const Device& device, bool doubles, bool storag
   return p;
 }
 
-Result<Bindings> make_bindings(const Device& device, const Pipelines& pipelines, bool storage) {
-  Bindings made;
-  std::array<VkDescriptorPoolSize, kBindings> sizes{};
-  for (uint32_t i = 0; i < kBindings; ++i) sizes[i] = {descriptor_type(i, storage), 1};
-  VkDescriptorPoolCreateInfo pool_info{};
-  pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-  pool_info.maxSets = 1;
-  pool_info.poolSizeCount = kBindings;
-  pool_info.pPoolSizes = sizes.data();
-  VkDescriptorPool pool = VK_NULL_HANDLE;
-  VkResult result = vkCreateDescriptorPool(device.handle(), &pool_info, nullptr, &pool);
-  if (result != VK_SUCCESS) return device.error(result, "make bindings");
-  made.pool = {device.handle(), pool, vkDestroyDescriptorPool};
-  VkDescriptorSetAllocateInfo allocate{};
-  allocate.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
-  allocate.descriptorPool = pool;
-  allocate.descriptorSetCount = 1;
-  allocate.pSetLayouts = pipelines.set_layout.address();
-  result = vkAllocateDescriptorSets(device.handle(), &allocate, &made.set);
-  if (result != VK_SUCCESS) return device.error(result, "make bindings");
-  return made;
-}
-
 }  // namespace whittle

@@ -44,13 +44,6 @@ struct Pipelines {
 };
 Result<Pipelines> make_pipelines(const gpu::Device& device, bool doubles, bool storage);
 
-/// What the pipelines read and write: one set of it.
-struct Bindings {
-  gpu::Owned<VkDescriptorPool> pool;
-  VkDescriptorSet set = VK_NULL_HANDLE;
-};
-Result<Bindings> make_bindings(const gpu::Device& device, const Pipelines& pipelines, bool storage);
-
 /// What kind of descriptor a binding has.
 VkDescriptorType descriptor_type(uint32_t binding, bool storage);
 

@@ -1,0 +1,216 @@
+#include "trace/vulkan/tile_drawer.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+
+namespace whittle {
+namespace {
+
+using gpu::Buffer;
+using gpu::Image;
+using gpu::Placement;
+
+/// What the resolving shader writes for a pixel, and its workgroups' side.
+static_assert(sizeof(Hit) == 20 && offsetof(Hit, id) == 4 && offsetof(Hit, normal) == 8);
+constexpr uint32_t kGroupSide = 8;
+
+/// Mesa's software device compiles shaders anew for images whose sides are powers of two, and for
+/// those whose sides are not. These never are, so it compiles once.
+uint32_t side_for(int pixels) {
+  return std::has_single_bit(unsigned(pixels)) ? std::max(3u, unsigned(pixels) + 1)
+                                               : unsigned(pixels);
+}
+
+constexpr gpu::ImageUse kUnused{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_NONE, 0};
+constexpr gpu::ImageUse kFilled{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
+                                VK_ACCESS_2_TRANSFER_WRITE_BIT};
+constexpr gpu::ImageUse kTested{
+    VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+constexpr gpu::ImageUse kDrawn{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                               VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                               VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+constexpr gpu::ImageUse kResolved{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                  VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                  VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+
+}  // namespace
+
+Result<TileDrawer> TileDrawer::make(const RasterDevice& device, gpu::Commands& commands,
+                                    const Bindings& bindings) {
+  TileDrawer made;
+  made.device_ = &device;
+  made.commands_ = &commands;
+  made.bindings_ = &bindings;
+  if (Status done = made.make_buffer(made.view_, sizeof(ViewData),
+                                     VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, Placement::kUpload);
+      !done)
+    return done.error();
+  if (Status done = made.make_buffer(made.indices_, sizeof(kIndices),
+                                     VK_BUFFER_USAGE_INDEX_BUFFER_BIT, Placement::kUpload);
+      !done)
+    return done.error();
+  std::memcpy(made.indices_.mapped(), kIndices.data(), sizeof(kIndices));
+  bindings.bind(kViewBinding, made.view_);
+  if (Status done = made.resize(1, 1); !done) return done.error();
+  return made;
+}
+
+Status TileDrawer::make_buffer(Buffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage,
+                               Placement placement) {
+  Result<Buffer> made = Buffer::make(gpu(), bytes, usage, placement);
+  if (!made) return made.error();
+  buffer = *std::move(made);
+  return Done{};
+}
+
+Status TileDrawer::resize(int width, int height) {
+  if (width == width_ && height == height_) return Done{};
+  width_ = height_ = 0;
+  Result<Image> seen =
+      Image::make(gpu(), kSeenFormat, side_for(width), side_for(height),
+                  VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+  if (!seen) return seen.error();
+  seen_ = *std::move(seen);
+  Result<Image> depth =
+      Image::make(gpu(), kDepthFormat, uint32_t(width), uint32_t(height),
+                  VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  if (!depth) return depth.error();
+  depth_ = *std::move(depth);
+  const VkDeviceSize pixels = VkDeviceSize(width) * VkDeviceSize(height);
+  if (Status done = make_buffer(hits_, pixels * sizeof(Hit), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                Placement::kRead);
+      !done)
+    return done;
+  Result<ReadBuffer> positions = make_read_buffer(*device_, pixels * sizeof(PixelPosition),
+                                                  VK_FORMAT_R32G32_SFLOAT, 0, Placement::kUpload);
+  if (!positions) return positions.error();
+  positions_ = *std::move(positions);
+  if (Status done = make_buffer(asked_, pixels * sizeof(float), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                Placement::kUpload);
+      !done)
+    return done;
+  bindings_->bind(kPositionsBinding, positions_);
+  bindings_->bind(kHitsBinding, hits_);
+  bindings_->bind(kSeenBinding, seen_);
+  width_ = width;
+  height_ = height;
+  return Done{};
+}
+
+Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells,
+                        const ProbeLayer* layer, RasterStats& stats) {
+  if (Status done = resize(view.tile_size[0], view.tile_size[1]); !done) return done;
+  std::memcpy(view_.mapped(), &view, sizeof(view));
+  if (layer != nullptr) {
+    std::memcpy(positions_.buffer.mapped(), layer->positions.data(),
+                layer->positions.size() * sizeof(PixelPosition));
+    std::memcpy(asked_.mapped(), layer->depth.data(), layer->depth.size() * sizeof(float));
+  }
+  if (Status done = make_instances(cells); !done) return done;
+
+  Result<VkCommandBuffer> recording = commands_->begin();
+  if (!recording) return recording.error();
+  commands_->stamp();
+  record_drawing(*recording, layer != nullptr);
+  commands_->stamp();
+  record_resolving(*recording);
+  commands_->stamp();
+  if (Status done = commands_->run(); !done) return done;
+  const std::vector<double> times = commands_->intervals();
+  if (times.size() == 2) {
+    stats.draw_ms += times[0];
+    stats.resolve_ms += times[1];
+  }
+  return Done{};
+}
+
+/// The wide ones first.
+Status TileDrawer::make_instances(std::span<const VisibleCell> cells) {
+  const VkDeviceSize bytes = (cells.size() + 1) * sizeof(Instance);
+  if (instances_.bytes() < bytes) {
+    // Half as much again as it has.
+    if (Status done = make_buffer(instances_, std::max(bytes, instances_.bytes() * 3 / 2),
+                                  VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, Placement::kUpload);
+        !done)
+      return done;
+  }
+  instance_count_ = uint32_t(cells.size());
+  wide_count_ = uint32_t(std::ranges::count_if(cells, &VisibleCell::is_wide));
+  // Steps as large as they can be, powers of two: every depth is exact.
+  const double step = 1 / double(std::bit_ceil(cells.size() + 1));
+  auto* const to = static_cast<Instance*>(instances_.mapped());
+  uint32_t next_wide = 0, next_box = wide_count_;
+  for (size_t rank = 0; rank < cells.size(); ++rank) {
+    const VisibleCell& cell = cells[rank];
+    to[cell.is_wide ? next_wide++ : next_box++] = {cell.cell, float(double(rank + 1) * step)};
+  }
+  return Done{};
+}
+
+void TileDrawer::record_drawing(VkCommandBuffer commands, bool has_asked) const {
+  const VkExtent2D extent{uint32_t(width_), uint32_t(height_)};
+  if (has_asked) {
+    gpu::change_use(commands, depth_.handle(), depth_.aspect(), kUnused, kFilled);
+    VkBufferImageCopy copy{};
+    copy.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
+    copy.imageExtent = {extent.width, extent.height, 1};
+    vkCmdCopyBufferToImage(commands, asked_.handle(), depth_.handle(),
+                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    gpu::change_use(commands, depth_.handle(), depth_.aspect(), kFilled, kTested);
+  } else {
+    gpu::change_use(commands, depth_.handle(), depth_.aspect(), kUnused, kTested);
+  }
+  gpu::change_use(commands, seen_.handle(), seen_.aspect(), kUnused, kDrawn);
+
+  VkRenderingAttachmentInfo color{};
+  color.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+  color.imageView = seen_.view();
+  color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+  color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+  color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+  VkRenderingAttachmentInfo depth = color;
+  depth.imageView = depth_.view();
+  depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
+  depth.loadOp = has_asked ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
+  depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+  depth.clearValue.depthStencil.depth = 1;
+  VkRenderingInfo rendering{};
+  rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+  rendering.renderArea.extent = extent;
+  rendering.layerCount = 1;
+  rendering.colorAttachmentCount = 1;
+  rendering.pColorAttachments = &color;
+  rendering.pDepthAttachment = &depth;
+  vkCmdBeginRendering(commands, &rendering);
+  const VkViewport viewport{0, 0, float(extent.width), float(extent.height), 0, 1};
+  const VkRect2D scissor{{0, 0}, extent};
+  vkCmdSetViewport(commands, 0, 1, &viewport);
+  vkCmdSetScissor(commands, 0, 1, &scissor);
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, device_->pipelines().draw.get());
+  bindings_->use(commands, VK_PIPELINE_BIND_POINT_GRAPHICS);
+  const VkBuffer instances = instances_.handle();
+  const VkDeviceSize from_start = 0;
+  vkCmdBindVertexBuffers(commands, 0, 1, &instances, &from_start);
+  vkCmdBindIndexBuffer(commands, indices_.handle(), 0, VK_INDEX_TYPE_UINT16);
+  const uint32_t boxes = instance_count_ - wide_count_;
+  if (wide_count_ > 0) vkCmdDrawIndexed(commands, kSquareIndices, wide_count_, kBoxIndices, 0, 0);
+  if (boxes > 0) vkCmdDrawIndexed(commands, kBoxIndices, boxes, 0, 0, wide_count_);
+  vkCmdEndRendering(commands);
+}
+
+void TileDrawer::record_resolving(VkCommandBuffer commands) const {
+  gpu::change_use(commands, seen_.handle(), seen_.aspect(), kDrawn, kResolved);
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_->pipelines().resolve.get());
+  bindings_->use(commands, VK_PIPELINE_BIND_POINT_COMPUTE);
+  const auto groups = [](int pixels) { return (uint32_t(pixels) + kGroupSide - 1) / kGroupSide; };
+  vkCmdDispatch(commands, groups(width_), groups(height_), 1);
+  gpu::wait_for(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT,
+                VK_ACCESS_2_HOST_READ_BIT);
+}
+
+}  // namespace whittle
