@@ -109,7 +109,7 @@ class RasterTracerImpl final : public RasterTracer {
     stats_.drawn += visible_.size();
     const ViewData view =
         make_view_data(scene_, camera, tile, device_->doubles(), layer != nullptr, margin);
-    return drawer_.draw(view, visible_, layer, stats_);
+    return drawer_.draw(view, visible_, flat_.cases, layer, stats_);
   }
 
   const Scene& scene_;

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
 namespace whittle {
 namespace {
@@ -39,7 +40,7 @@ constexpr gpu::ImageUse kResolved{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
 
 }  // namespace
 
-Result<TileDrawer> TileDrawer::make(const RasterDevice& device, gpu::Commands& commands,
+Result<TileDrawer> TileDrawer::make(RasterDevice& device, gpu::Commands& commands,
                                     const Bindings& bindings) {
   TileDrawer made;
   made.device_ = &device;
@@ -102,7 +103,8 @@ Status TileDrawer::resize(int width, int height) {
 }
 
 Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells,
-                        const ProbeLayer* layer, RasterStats& stats) {
+                        std::span<const LeafCase> cases, const ProbeLayer* layer,
+                        RasterStats& stats) {
   if (Status done = resize(view.tile_size[0], view.tile_size[1]); !done) return done;
   std::memcpy(view_.mapped(), &view, sizeof(view));
   if (layer != nullptr) {
@@ -110,8 +112,9 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
                 layer->positions.size() * sizeof(PixelPosition));
     std::memcpy(asked_.mapped(), layer->depth.data(), layer->depth.size() * sizeof(float));
   }
-  if (Status done = make_instances(cells); !done) return done;
+  if (Status done = make_instances(cells, cases); !done) return done;
 
+  stats.draws += uint32_t(draws_.size());
   Result<VkCommandBuffer> recording = commands_->begin();
   if (!recording) return recording.error();
   commands_->stamp();
@@ -128,27 +131,51 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
   return Done{};
 }
 
-/// The wide ones first.
-Status TileDrawer::make_instances(std::span<const VisibleCell> cells) {
-  const VkDeviceSize bytes = (cells.size() + 1) * sizeof(Instance);
-  if (instances_.bytes() < bytes) {
-    // Half as much again as it has.
-    if (Status done = make_buffer(instances_, std::max(bytes, instances_.bytes() * 3 / 2),
-                                  VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, Placement::kUpload);
-        !done)
-      return done;
+/// Sorted by case, and front to back within each.
+Status TileDrawer::make_instances(std::span<const VisibleCell> cells,
+                                  std::span<const LeafCase> cases) {
+  if (Status done = reserve(instances_, (cells.size() + 1) * sizeof(Instance),
+                            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+      !done)
+    return done;
+  std::array<uint32_t, 2 * kLeafCases> next{};
+  const auto draw_of = [&](const VisibleCell& cell) {
+    return 2 * device_->shader_for(cases[cell.cell]) + (cell.is_wide ? 0 : 1);
+  };
+  for (const VisibleCell& cell : cells) ++next[draw_of(cell)];
+  draws_.clear();
+  uint32_t first = 0;
+  for (uint32_t i = 0; i < next.size(); ++i) {
+    const uint32_t count = std::exchange(next[i], first);
+    if (count == 0) continue;
+    draws_.push_back({LeafCase(i / 2), i % 2 == 0, first, count});
+    if (Status done = device_->need(LeafCase(i / 2)); !done) return done;
+    first += count;
   }
-  instance_count_ = uint32_t(cells.size());
-  wide_count_ = uint32_t(std::ranges::count_if(cells, &VisibleCell::is_wide));
   // Steps as large as they can be, powers of two: every depth is exact.
   const double step = 1 / double(std::bit_ceil(cells.size() + 1));
   auto* const to = static_cast<Instance*>(instances_.mapped());
-  uint32_t next_wide = 0, next_box = wide_count_;
-  for (size_t rank = 0; rank < cells.size(); ++rank) {
-    const VisibleCell& cell = cells[rank];
-    to[cell.is_wide ? next_wide++ : next_box++] = {cell.cell, float(double(rank + 1) * step)};
+  for (size_t rank = 0; rank < cells.size(); ++rank)
+    to[next[draw_of(cells[rank])]++] = {cells[rank].cell, float(double(rank + 1) * step)};
+
+  if (Status done =
+          reserve(commands_of_draws_, (draws_.size() + 1) * sizeof(VkDrawIndexedIndirectCommand),
+                  VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+      !done)
+    return done;
+  auto* const commands = static_cast<VkDrawIndexedIndirectCommand*>(commands_of_draws_.mapped());
+  for (size_t i = 0; i < draws_.size(); ++i) {
+    const Draw& draw = draws_[i];
+    commands[i] = {draw.is_wide ? kSquareIndices : kBoxIndices, draw.count,
+                   draw.is_wide ? kBoxIndices : 0, 0, 0};
   }
   return Done{};
+}
+
+/// Makes room in a buffer, half as much again as it has.
+Status TileDrawer::reserve(Buffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage) {
+  if (buffer.bytes() >= bytes) return Done{};
+  return make_buffer(buffer, std::max(bytes, buffer.bytes() * 3 / 2), usage, Placement::kUpload);
 }
 
 void TileDrawer::record_drawing(VkCommandBuffer commands, bool has_asked) const {
@@ -190,15 +217,18 @@ void TileDrawer::record_drawing(VkCommandBuffer commands, bool has_asked) const 
   const VkRect2D scissor{{0, 0}, extent};
   vkCmdSetViewport(commands, 0, 1, &viewport);
   vkCmdSetScissor(commands, 0, 1, &scissor);
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, device_->pipelines().draw.get());
   bindings_->use(commands, VK_PIPELINE_BIND_POINT_GRAPHICS);
-  const VkBuffer instances = instances_.handle();
-  const VkDeviceSize from_start = 0;
-  vkCmdBindVertexBuffers(commands, 0, 1, &instances, &from_start);
   vkCmdBindIndexBuffer(commands, indices_.handle(), 0, VK_INDEX_TYPE_UINT16);
-  const uint32_t boxes = instance_count_ - wide_count_;
-  if (wide_count_ > 0) vkCmdDrawIndexed(commands, kSquareIndices, wide_count_, kBoxIndices, 0, 0);
-  if (boxes > 0) vkCmdDrawIndexed(commands, kBoxIndices, boxes, 0, 0, wide_count_);
+  const VkBuffer instances = instances_.handle();
+  for (size_t i = 0; i < draws_.size(); ++i) {
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                      device_->pipelines().draw[draws_[i].shader].get());
+    // An offset, and not a first instance in the command: that would be one more feature to need.
+    const VkDeviceSize first = draws_[i].first * sizeof(Instance);
+    vkCmdBindVertexBuffers(commands, 0, 1, &instances, &first);
+    vkCmdDrawIndexedIndirect(commands, commands_of_draws_.handle(),
+                             i * sizeof(VkDrawIndexedIndirectCommand), 1, 0);
+  }
   vkCmdEndRendering(commands);
 }
 
