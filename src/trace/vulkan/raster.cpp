@@ -55,11 +55,12 @@ class RasterTracerImpl final : public RasterTracer {
     Frame frame(camera.width, camera.height);
     stats_ = {};
     stats_.cells = cell_count_;
+    drawer_.begin_picture();
     if (flat_.root == kNoChild) return frame;
     const std::vector<PixelRect> tiles = tiles_of(pixels_covering(camera, world_region()));
     for (size_t i = 0; i < tiles.size() && status_; ++i) {
       const PixelRect& tile = tiles[i];
-      status_ = trace_tile(camera, tile, nullptr);
+      status_ = trace_tile(camera, tile, nullptr, stats_);
       if (!status_) break;
       for (int y = 0; y < tile.height(); ++y)
         std::memcpy(&frame.at(tile.x0, tile.y0 + y),
@@ -78,7 +79,8 @@ class RasterTracerImpl final : public RasterTracer {
     for (const PixelRect& tile : tiles_of(pixels_of(positions))) {
       for (const ProbeLayer& layer : probe_layers(positions, tile)) {
         if (!status_) return;
-        status_ = trace_tile(camera, tile, &layer);
+        RasterStats unused;
+        status_ = trace_tile(camera, tile, &layer, unused);
         if (!status_) return std::fill(hits.begin(), hits.end(), Hit{});
         for (const ProbeLayer::Place& place : layer.places)
           hits[place.position] = drawer_.hits()[place.pixel];
@@ -100,16 +102,16 @@ class RasterTracerImpl final : public RasterTracer {
     return tiles;
   }
 
-  Status trace_tile(const Camera& camera, const PixelRect& tile, const ProbeLayer* layer) {
+  Status trace_tile(const Camera& camera, const PixelRect& tile, const ProbeLayer* layer,
+                    RasterStats& stats) {
     // A place may be anywhere in its pixel.
     const double margin = device_->margin(camera) + (layer ? 1 : 0);
     const auto start = std::chrono::steady_clock::now();
     order_front_to_back(flat_, camera, local_eye(scene_, camera), tile, margin, visible_);
-    stats_.order_ms += milliseconds_since(start);
-    stats_.drawn += visible_.size();
+    stats.order_ms += milliseconds_since(start);
     const ViewData view =
         make_view_data(scene_, camera, tile, device_->doubles(), layer != nullptr, margin);
-    return drawer_.draw(view, visible_, flat_.cases, layer, stats_);
+    return drawer_.draw(view, visible_, flat_.cases, layer, stats);
   }
 
   const Scene& scene_;

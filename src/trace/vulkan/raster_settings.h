@@ -21,17 +21,20 @@ struct RasterSettings {
   ShaderNumbers numbers = ShaderNumbers::kAuto;
   ShaderReads reads = ShaderReads::kAuto;
   ShaderCases shaders = ShaderCases::kSpecialised;
+  bool culling = true;    ///< cells behind others are left out; for measurements it can be off
   bool validate = false;  ///< use Vulkan's validation layer, and keep what it says
 };
 
 /// What the last render() did.
 struct RasterStats {
-  uint64_t cells = 0;     ///< on the device
-  uint64_t drawn = 0;     ///< of them, those that the camera may see
-  uint32_t draws = 0;     ///< calls that did it
-  double order_ms = 0;    ///< on the host: cells sorted front to back
-  double draw_ms = 0;     ///< on the device, 0 if it cannot tell: cells to pixels
-  double resolve_ms = 0;  ///< pixels to facts
+  uint64_t cells = 0;         ///< on the device
+  uint64_t in_view = 0;       ///< of them, those that the camera may see,
+  uint64_t drawn_first = 0;   ///< those drawn because they are probably seen,
+  uint64_t drawn_second = 0;  ///< and those that these did not hide; tiles add up
+  uint32_t draws = 0;         ///< calls that did it
+  double order_ms = 0;        ///< on the host: cells sorted front to back
+  double draw_ms = 0;         ///< on the device, 0 if it cannot tell: cells to pixels
+  double resolve_ms = 0;      ///< pixels to facts
 };
 
 }  // namespace whittle

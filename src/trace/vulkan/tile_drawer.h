@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "gpu/commands.h"
-#include "trace/vulkan/bindings.h"
-#include "trace/vulkan/front_to_back.h"
+#include "trace/vulkan/draw_list.h"
 #include "trace/vulkan/probe_layers.h"
 #include "trace/vulkan/view_data.h"
 
@@ -18,6 +17,8 @@ class TileDrawer {
   static Result<TileDrawer> make(RasterDevice& device, gpu::Commands& commands,
                                  const Bindings& bindings);
 
+  /// Of which the tiles and layers are that follow.
+  void begin_picture() { ++picture_; }
   /// Facts for all pixels of a tile, or for the places of a layer; then they are in hits().
   /// `cells`: those that the tile may see, front to back; `cases`: of all cells, by number.
   Status draw(const ViewData& view, std::span<const VisibleCell> cells,
@@ -27,33 +28,30 @@ class TileDrawer {
   const Hit* hits() const { return static_cast<const Hit*>(hits_.mapped()); }
 
  private:
-  /// Cells of one case, which are all drawn as boxes or all as squares.
-  struct Draw {
-    LeafCase shader = kAnyLeaf;
-    bool is_wide = false;
-    uint32_t first = 0, count = 0;  ///< instances
-  };
-
   /// Images and buffers for a tile of that size.
   Status resize(int width, int height);
-  Status make_instances(std::span<const VisibleCell> cells, std::span<const LeafCase> cases);
-  void record_drawing(VkCommandBuffer commands, bool has_asked) const;
+  Status make_last_seen(size_t cells);
+  void record_asked(VkCommandBuffer commands) const;
+  void record_test(VkCommandBuffer commands, DrawList::Pass pass) const;
+  void record_drawing(VkCommandBuffer commands, DrawList::Pass pass, bool has_asked) const;
   void record_resolving(VkCommandBuffer commands) const;
 
   const gpu::Device& gpu() const { return device_->gpu(); }
   Status make_buffer(gpu::Buffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage,
                      gpu::Placement placement);
-  Status reserve(gpu::Buffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage);
 
   RasterDevice* device_ = nullptr;
   gpu::Commands* commands_ = nullptr;
   const Bindings* bindings_ = nullptr;
-  gpu::Buffer view_, indices_, instances_, commands_of_draws_, hits_;
+  gpu::Buffer view_, indices_, hits_;
+  gpu::Buffer last_seen_;  ///< by cell: the picture in which it was last seen
+  uint32_t picture_ = 0;
+  gpu::Buffer pyramid_;
   ReadBuffer positions_;  ///< where in the picture each pixel looks, if there is a layer
   gpu::Buffer asked_;     ///< and depths that shut the pixels of which nothing is asked
   gpu::Image seen_, depth_;
   int width_ = 0, height_ = 0;
-  std::vector<Draw> draws_;
+  DrawList list_;
 };
 
 }  // namespace whittle
