@@ -19,6 +19,8 @@ constexpr Choice<SplitRule> kSplits[] = {{"longest", SplitRule::kLongest},
                                          {"xyz", SplitRule::kXyz},
                                          {"octree", SplitRule::kOctree},
                                          {"cost", SplitRule::kCost}};
+constexpr Choice<ShaderCases> kShaders[] = {{"specialised", ShaderCases::kSpecialised},
+                                            {"unified", ShaderCases::kUnified}};
 constexpr Choice<bool> kProjections[] = {
     {"perspective", false}, {"p", false}, {"orthogonal", true}, {"ortho", true}, {"o", true}};
 constexpr Choice<bool> kSmallCells[] = {{"trace", false}, {"ignore", true}};
@@ -45,6 +47,9 @@ Choices<bool> matrices_choices() {
 }
 Choices<SplitRule> split_choices() {
   return kSplits;
+}
+Choices<ShaderCases> shaders_choices() {
+  return kShaders;
 }
 Choices<bool> projection_choices() {
   return kProjections;
