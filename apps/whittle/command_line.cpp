@@ -26,6 +26,12 @@ void add_loading_options(CLI::App& app, Loading& loading) {
   add_limit_option(app, loading.limits);
 }
 
+void suit_style(Style style, Loading& loading) {
+  if (style == Style::kOpenscad && loading.curves == Curves::kAuto) {
+    loading.curves = Curves::kFacets;
+  }
+}
+
 ReadOptions read_options(const Loading& loading) {
   return {.curves = loading.curves, .polish = loading.polish, .limits = loading.limits};
 }

@@ -24,6 +24,8 @@ constexpr Choice<ShaderCases> kShaders[] = {{"specialised", ShaderCases::kSpecia
 constexpr Choice<bool> kProjections[] = {
     {"perspective", false}, {"p", false}, {"orthogonal", true}, {"ortho", true}, {"o", true}};
 constexpr Choice<bool> kSmallCells[] = {{"trace", false}, {"ignore", true}};
+constexpr Choice<CellView> kCellViews[] = {{"edges", CellView::kEdges},
+                                           {"faces", CellView::kFaces}};
 
 }  // namespace
 
@@ -56,6 +58,9 @@ Choices<bool> projection_choices() {
 }
 Choices<bool> small_cells_choices() {
   return kSmallCells;
+}
+Choices<CellView> cell_view_choices() {
+  return kCellViews;
 }
 
 }  // namespace whittle

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "image/draw_cells.h"
 #include "image/shade.h"
 #include "model/facets.h"
 #include "subdivide/subdivide.h"
@@ -48,6 +49,7 @@ Choices<ShaderCases> shaders_choices();
 Choices<bool> projection_choices();
 /// What becomes of cells too small to split; true: they are ignored.
 Choices<bool> small_cells_choices();
+Choices<CellView> cell_view_choices();
 
 /// The names of the choices, with `separator` between them.
 template <class T>
