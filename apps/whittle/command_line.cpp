@@ -26,6 +26,12 @@ void add_loading_options(CLI::App& app, Loading& loading) {
   add_limit_option(app, loading.limits);
 }
 
+void suit_style(Style style, Loading& loading) {
+  if (style == Style::kOpenscad && loading.curves == Curves::kAuto) {
+    loading.curves = Curves::kFacets;
+  }
+}
+
 ReadOptions read_options(const Loading& loading) {
   return {.curves = loading.curves, .polish = loading.polish, .limits = loading.limits};
 }
@@ -125,6 +131,9 @@ void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffec
                  "of vulkan backends: its number or a part of its name\n"
                  "(see whittle devices)",
                  [&](const std::string& device) { settings.device = device; });
+  group.add_choice("--shaders", shaders_choices(), "kind of shaders",
+                   "of vulkan-raster: {}; one for\neach case of cells, or one for all",
+                   [&](ShaderCases shaders) { settings.shaders = shaders; });
   group.add_count("--threads", "N", settings.threads, 0, kMostThreads,
                   "0 (all) to 1024; the picture is the same");
 }

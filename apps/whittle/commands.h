@@ -10,6 +10,7 @@ using Arguments = std::span<const char* const>;
 
 int render_command(Arguments arguments);
 int info_command(Arguments arguments);
+int cells_command(Arguments arguments);
 int compare_command(Arguments arguments);
 int bench_command(Arguments arguments);
 int model_command(Arguments arguments);

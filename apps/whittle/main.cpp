@@ -22,11 +22,9 @@ struct Command {
   int (*run)(Arguments arguments);
 };
 
-constexpr Command kCommands[] = {{"info", info_command},
-                                 {"compare", compare_command},
-                                 {"bench", bench_command},
-                                 {"model", model_command},
-                                 {"devices", devices_command}};
+constexpr Command kCommands[] = {{"info", info_command},       {"cells", cells_command},
+                                 {"compare", compare_command}, {"bench", bench_command},
+                                 {"model", model_command},     {"devices", devices_command}};
 
 int run(Arguments arguments) {
   for (const Command& command : kCommands) {

@@ -23,6 +23,7 @@ constexpr CommandHelp kHelp = {
     "whittle", "Exact pictures of Constructive Solid Geometry, from OpenSCAD files.",
     "FILE -o OUT [options]      makes a picture (the default command)\n"
     "       whittle info FILE                  says what is in a file\n"
+    "       whittle cells FILE -o OUT.png      draws the cells over the model\n"
     "       whittle compare A.exr B.exr        compares the facts of two pictures\n"
     "       whittle bench FILE...              measures every stage\n"
     "       whittle model NAME [N] [-o OUT]    writes a model made to measure\n"
@@ -159,9 +160,7 @@ Status render(RenderArguments& a) {
   }
   if (!a.loading.quiet) say_without_effect(a.without_effect);
 
-  // What equals OpenSCAD's picture has OpenSCAD's facets.
-  if (a.shading.style == Style::kOpenscad && a.loading.curves == Curves::kAuto)
-    a.loading.curves = Curves::kFacets;
+  suit_style(a.shading.style, a.loading);
   const Result<Read> read = load(a.file, a.loading);
   if (!read) return read.error();
   const Model& model = read->model;

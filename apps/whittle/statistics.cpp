@@ -48,6 +48,16 @@ void add_rays(Lines out, const TraceStats& s) {
                  s.disagreements);
 }
 
+void add_drawing(Lines out, const RasterStats& s) {
+  const uint64_t drawn = s.drawn_first + s.drawn_second;
+  fmt::format_to(out,
+                 "drawn         {:>12}   of {} cells in view, {} of them because others did not "
+                 "hide them; {} calls\n"
+                 "device (ms)   {:>12.1f}   draw {:.1f}, resolve {:.1f}; sorted in {:.1f}\n",
+                 drawn, s.in_view, s.drawn_second, s.draws, s.draw_ms + s.resolve_ms, s.draw_ms,
+                 s.resolve_ms, s.order_ms);
+}
+
 }  // namespace
 
 size_t peak_memory_bytes() {
@@ -86,7 +96,10 @@ std::string statistics(const Model& model, const Renderer& renderer, bool is_aut
   }
   if (const CellTree* cells = renderer.cells()) {
     add_cells(out, *cells);
-    add_rays(out, renderer.trace_stats());
+    if (renderer.backend() == Backend::kVulkanRaster)
+      add_drawing(out, renderer.raster_stats());
+    else
+      add_rays(out, renderer.trace_stats());
   }
   const StageTimes& s = renderer.times();
   fmt::format_to(

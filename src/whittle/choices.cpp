@@ -19,9 +19,13 @@ constexpr Choice<SplitRule> kSplits[] = {{"longest", SplitRule::kLongest},
                                          {"xyz", SplitRule::kXyz},
                                          {"octree", SplitRule::kOctree},
                                          {"cost", SplitRule::kCost}};
+constexpr Choice<ShaderCases> kShaders[] = {{"specialised", ShaderCases::kSpecialised},
+                                            {"unified", ShaderCases::kUnified}};
 constexpr Choice<bool> kProjections[] = {
     {"perspective", false}, {"p", false}, {"orthogonal", true}, {"ortho", true}, {"o", true}};
 constexpr Choice<bool> kSmallCells[] = {{"trace", false}, {"ignore", true}};
+constexpr Choice<CellView> kCellViews[] = {{"edges", CellView::kEdges},
+                                           {"faces", CellView::kFaces}};
 
 }  // namespace
 
@@ -46,11 +50,17 @@ Choices<bool> matrices_choices() {
 Choices<SplitRule> split_choices() {
   return kSplits;
 }
+Choices<ShaderCases> shaders_choices() {
+  return kShaders;
+}
 Choices<bool> projection_choices() {
   return kProjections;
 }
 Choices<bool> small_cells_choices() {
   return kSmallCells;
+}
+Choices<CellView> cell_view_choices() {
+  return kCellViews;
 }
 
 }  // namespace whittle

@@ -7,9 +7,11 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "image/draw_cells.h"
 #include "image/shade.h"
 #include "model/facets.h"
 #include "subdivide/subdivide.h"
+#include "trace/vulkan/raster_settings.h"
 
 namespace whittle {
 
@@ -42,10 +44,12 @@ Choices<Curves> curves_choices();
 /// What becomes of rotations printed with six digits; true: they are polished.
 Choices<bool> matrices_choices();
 Choices<SplitRule> split_choices();
+Choices<ShaderCases> shaders_choices();
 /// OpenSCAD's words for --projection; true: orthographic.
 Choices<bool> projection_choices();
 /// What becomes of cells too small to split; true: they are ignored.
 Choices<bool> small_cells_choices();
+Choices<CellView> cell_view_choices();
 
 /// The names of the choices, with `separator` between them.
 template <class T>

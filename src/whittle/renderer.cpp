@@ -51,8 +51,9 @@ struct Renderer::State {
   std::optional<CutFaces> cut_faces;  ///< made when a style first asks
   std::optional<CellTree> cells;
   std::unique_ptr<Tracer> tracer;
-  CpuTracer* cpu = nullptr;  ///< the tracer, if it is that one
-  bool is_auto = false;      ///< nobody chose the backend
+  CpuTracer* cpu = nullptr;        ///< the tracer, if it is that one
+  RasterTracer* raster = nullptr;  ///< or that one
+  bool is_auto = false;            ///< nobody chose the backend
   std::shared_ptr<RasterDevice> device;
   std::string backend_note;
 
@@ -70,7 +71,8 @@ Status Renderer::State::choose_backend() {
   if (is_auto)
     settings.backend = gpu::has_graphics_hardware() ? Backend::kVulkanRaster : Backend::kCpu;
   if (settings.backend != Backend::kVulkanRaster) return Done{};
-  Result<std::shared_ptr<RasterDevice>> opened = open_raster_device({.device = settings.device});
+  Result<std::shared_ptr<RasterDevice>> opened =
+      open_raster_device({.device = settings.device, .shaders = settings.shaders});
   if (opened && !(is_auto && is_software(**opened))) {
     device = *std::move(opened);
     backend_note = describe(*device);
@@ -86,6 +88,7 @@ bool Renderer::State::falls_back(const Error& refusal, const Camera& camera) {
   if (!is_auto || settings.backend != Backend::kVulkanRaster) return false;
   settings.backend = Backend::kCpu;
   backend_note = refusal.message;
+  raster = nullptr;
   tracer.reset();
   device.reset();
   return bool(make_tracer(camera));
@@ -124,6 +127,7 @@ Camera Renderer::camera(const ViewOptions& options) {
 Status Renderer::State::make_tracer(const Camera& camera) {
   tracer.reset();
   cpu = nullptr;
+  raster = nullptr;
   if (settings.backend == Backend::kOracle) {
     tracer = make_oracle_tracer(model, settings.threads);
     return Done{};
@@ -142,9 +146,10 @@ Status Renderer::State::make_tracer(const Camera& camera) {
   const bool is_raster = settings.backend == Backend::kVulkanRaster;
   settings.eager || is_raster ? refine_all(*cells, workers) : refine_top(*cells, workers);
   if (is_raster) {
-    Result<std::unique_ptr<RasterTracer>> raster = make_raster_tracer(device, scene, *cells);
-    if (!raster) return raster.error();
-    tracer = *std::move(raster);
+    Result<std::unique_ptr<RasterTracer>> made = make_raster_tracer(device, scene, *cells);
+    if (!made) return made.error();
+    raster = made->get();
+    tracer = *std::move(made);
   } else {
     std::unique_ptr<CpuTracer> made = make_cpu_tracer(scene, *cells, settings.threads);
     cpu = made.get();
@@ -216,6 +221,10 @@ const CellTree* Renderer::cells() const {
 
 TraceStats Renderer::trace_stats() const {
   return state_->cpu ? state_->cpu->stats() : TraceStats{};
+}
+
+RasterStats Renderer::raster_stats() const {
+  return state_->raster ? state_->raster->stats() : RasterStats{};
 }
 
 const StageTimes& Renderer::times() const {

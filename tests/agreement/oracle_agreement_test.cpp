@@ -242,6 +242,27 @@ TEST(Agreement, AnEyeFarFromTheOriginKnowsNoMoreThanItsOwnDigits) {
   EXPECT_EQ(differs(1e-8f), 1);
 }
 
+TEST(Agreement, AFilmThatHidesBetweenTheLooksMayBeSeenFromWithinRounding) {
+  const Model model = model_of("translate([-5, -5, 0]) cube([10, 10, 1e-5]);");
+  const auto oracle = make_oracle_tracer(model);
+  Camera camera = camera_along({20, 0, 0}, {-1, 0, 0});
+  camera.orthographic = true, camera.half_height = 1;
+  const auto unexplained = [&](double below) {
+    camera.eye.z = -below;
+    EXPECT_FALSE(oracle->render(camera).at(0, 0).hit());
+    const auto upwards = [&](Camera moved) {
+      moved.eye.z += 1.5 * below;
+      return moved;
+    };
+    AdaptedTracer subject(*oracle, upwards, {});
+    const AgreementReport report = check_agreement(model, subject, *oracle, camera);
+    EXPECT_EQ(report.ambiguous, 0);
+    return report.unexplained;
+  };
+  EXPECT_EQ(unexplained(1e-14), 0);
+  EXPECT_EQ(unexplained(1e-12), 1);
+}
+
 TEST(Agreement, DifferencesAreFoundWithoutLookingEverywhere) {
   const Model model = model_of(kScene);
   const auto oracle = make_oracle_tracer(model);

@@ -1,4 +1,5 @@
-// info, compare, bench and model.
+// info, cells, compare, bench and model.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "image/png.h"
@@ -29,6 +30,7 @@ class Commands : public ProgramTest {
 };
 
 class Info : public Commands {};
+class Cells : public Commands {};
 class Compare : public Commands {};
 class Bench : public Commands {};
 class ModelCommand : public Commands {};
@@ -90,6 +92,51 @@ TEST_F(Info, WarningsAreInTheJsonAndElseOnStandardError) {
   EXPECT_EQ(Json::parse(json.out)["warnings"], Json({warning}));
   EXPECT_EQ(Json::parse(json.out)["supported"], false);
   EXPECT_EQ(run({"info", "-", "--strict"}, hull).exit_code, 1);
+}
+
+TEST_F(Cells, TheyAreDrawnOverTheRendering) {
+  const std::vector<std::string> view{"--imgsize", "80,60", "--leaf-size", "2"};
+  const auto picture = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), view.begin(), view.end());
+    const Ended done = good(arguments);
+    EXPECT_EQ(done.out + done.err, "");
+    return *read_png(path("x.png"));
+  };
+  const Picture model = picture({"part.csg", "-o", "x.png"});
+  const Picture edges = picture({"cells", "part.csg", "-o", "x.png"});
+  const Picture faces = picture({"cells", "part.csg", "-o", "x.png", "--show", "faces"});
+  ASSERT_EQ(edges.rgba.size(), model.rgba.size());
+  const auto changed = [&](const Picture& drawn) {
+    size_t count = 0;
+    for (size_t i = 0; i < model.rgba.size(); i += 4)
+      count += !std::equal(&model.rgba[i], &model.rgba[i + 4], &drawn.rgba[i]);
+    return double(count) / double(model.rgba.size() / 4);
+  };
+  EXPECT_GT(changed(edges), 0.05);
+  EXPECT_LT(changed(edges), 0.6) << "lines leave the model to be seen";
+  EXPECT_GT(changed(faces), 0.2);
+  EXPECT_EQ(edges.at(0, 0)[0], model.at(0, 0)[0]) << "and the background";
+}
+
+TEST_F(Cells, StatisticsCountAllCells) {
+  const Ended done =
+      good({"cells", "part.csg", "-o", "x.png", "--paper", "--pixel-threshold", "60", "--stats"});
+  EXPECT_NE(done.err.find("\n  conjunctions "), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("\n  ignored "), std::string::npos) << done.err;
+  EXPECT_EQ(done.err.find("\n  open "), std::string::npos) << "only final cells: " << done.err;
+}
+
+TEST_F(Cells, WhatCannotBeIsRefused) {
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& message) {
+    const Ended done = run(arguments);
+    EXPECT_EQ(done.exit_code, 2);
+    EXPECT_NE(done.err.find(message), std::string::npos) << done.err;
+  };
+  refused({"cells", "part.csg"}, "give -o FILE.png");
+  refused({"cells", "part.csg", "-o", "x.exr"}, "-o: wants a .png file");
+  refused({"cells", "part.csg", "-o", "x.png", "--show", "all"}, "there are: edges, faces");
+  refused({"cells", "part.csg", "-o", "x.png", "--backend", "oracle"}, "oracle has no cells");
+  EXPECT_EQ(files(), std::vector<std::string>{"part.csg"});
 }
 
 TEST_F(Compare, EqualFactsAreEqualWhateverTheirColours) {

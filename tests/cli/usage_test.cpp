@@ -20,7 +20,7 @@ class Usage : public ProgramTest {
 };
 
 TEST_F(Usage, HelpOfEveryCommandTellsUsageExamplesAndExitCodes) {
-  for (const char* command : {"", "info", "compare", "bench", "model", "devices"}) {
+  for (const char* command : {"", "info", "cells", "compare", "bench", "model", "devices"}) {
     std::vector<std::string> arguments{"--help"};
     if (*command != '\0') arguments.insert(arguments.begin(), command);
     const Ended help = run(arguments);

@@ -1,5 +1,6 @@
 // Any bytes as a model (picture_model.h), rendered at 32x32 by the cpu backend and held to the
 // oracle pixel by pixel.
+#include <algorithm>
 #include <string>
 
 #include "agreement/cpu_subject.h"
@@ -35,14 +36,22 @@ Camera camera_of(const Model& model, int view) {
   return camera;
 }
 
-/// Where the tolerance is less than some hundred units in the last place of the coordinates, the
-/// eye's rounding decides between surfaces that the tolerance keeps apart: a model of a hundredth
-/// at 1e6, or half-spaces that meet far away, or all whose feet are one point but for rounding.
-/// There is nothing to agree on.
-bool is_noise(const Bounds& b) {
-  const Vec3 reach = max(abs(b.box.lo), abs(b.box.hi));
-  if (!b.bounded && max_component(reach) < 1e-12) return true;
-  return !b.box.is_empty() && tolerance(b) < 1e-13 * max_component(reach);
+/// The largest coordinate that comes into where the model's surfaces are. Half-spaces have no
+/// place, and where their feet are need not show through which numbers they were moved.
+double largest_coordinate(const Model& model, const Bounds& b) {
+  double largest = b.box.is_empty() ? 0 : max_component(max(abs(b.box.lo), abs(b.box.hi)));
+  for (const Instance& instance : instances(model))
+    if (!instance.empty)
+      largest = std::max(largest, max_component(abs(instance.world_from_object.translation)));
+  return largest;
+}
+
+/// Where the tolerance is less than some hundred units in the last place of the coordinates,
+/// rounding decides between surfaces that the tolerance keeps apart: a model of a hundredth at 1e6,
+/// or half-spaces that meet far away, or all whose feet are one point but for rounding. There is
+/// nothing to agree on.
+bool is_noise(const Model& model, const Bounds& b) {
+  return !b.box.is_empty() && tolerance(b) < 1e-13 * largest_coordinate(model, b);
 }
 
 void check(std::span<const uint8_t> bytes) {
@@ -52,7 +61,7 @@ void check(std::span<const uint8_t> bytes) {
     input = decode_picture(bytes, tolerance(bounds(model)));
     model = model_of(input.text, "fuzz.csg");
   }
-  if (is_noise(bounds(model))) return;
+  if (is_noise(model, bounds(model))) return;
   SubdivideSettings settings;
   settings.leaf_size = input.leaf_size;
   settings.least_use = input.least_use;

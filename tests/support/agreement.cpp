@@ -161,6 +161,24 @@ void look_at_pixels(Tracer& oracle, const Camera& camera, const Frame& frame,
   }
 }
 
+/// What the oracle sees at the pixel's centre, and from eyes that rounding cannot tell from this
+/// one.
+Looks look_from_beside(Tracer& oracle, const Camera& camera, size_t pixel, const Hit& center) {
+  Looks looks;
+  looks.rays[0] = center_ray(camera, pixel);
+  looks.hits[0] = center;
+  const double step = kOriginRounding * length(looks.rays[0].origin);
+  const PixelPosition position = {float(int(pixel) % camera.width) + 0.5f,
+                                  float(int(pixel) / camera.width) + 0.5f};
+  for (size_t i = 1; i < kLooks; ++i) {
+    Camera beside = camera;
+    beside.eye += camera.right * (i & 1 ? step : -step) + camera.up * (i & 2 ? step : -step);
+    looks.rays[i] = center_ray(beside, pixel);
+    oracle.probe(beside, {&position, 1}, {&looks.hits[i], 1});
+  }
+  return looks;
+}
+
 std::string describe(const Hit& hit) {
   if (!hit.hit()) return "nothing";
   return fmt::format("id {} at {:.9g}, normal ({:.6g}, {:.6g}, {:.6g})", hit.id, hit.distance,
@@ -230,10 +248,14 @@ void check_pixels(const Model& model, const char* subject, const Frame& seen, Tr
     const bool certain = is_certain(looks, camera.eye);
     const Hit& hit = seen.hits[pixel];
     report.ambiguous += !certain;
-    bool matched = false;
-    for (int i = 0; i < (certain ? 1 : kLooks); ++i)
-      matched = matched || matches(hit, looks, i, camera.eye, across, accepts);
-    if (matched) return;
+    const auto matches_one = [&](const Looks& from, int count) {
+      for (int i = 0; i < count; ++i)
+        if (matches(hit, from, i, camera.eye, across, accepts)) return true;
+      return false;
+    };
+    if (matches_one(looks, certain ? 1 : kLooks)) return;
+    if (certain && matches_one(look_from_beside(oracle, camera, pixel, looks.hits[0]), kLooks))
+      return;
     ++(certain ? report.unexplained : report.ambiguous_unmatched);
     // A certain pixel tells more than an ambiguous one seen before it.
     if (report.first_difference.empty() || (certain && report.unexplained == 1))

@@ -5,6 +5,9 @@
 // away. Where the five answers are one surface the pixel is certain, and any tracer must give that
 // answer. Elsewhere it is ambiguous: the ray passes an edge so closely that rounding may decide,
 // and any of the five answers will do.
+//
+// What is thinner than the displacement may hide between the five. So at a certain pixel an answer
+// is right, too, if it is the oracle's from an eye that is displaced by its own rounding.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +28,8 @@ inline constexpr double kDisplacement = 1e-3;  ///< pixels, in x and in y
 inline constexpr double kDistanceAgreement = 1e-5;
 /// Nobody knows where a surface is better than where the ray starts: across the surface, this much
 /// of the start's distance from the world's origin is forgiven too, some 5 units in its last place.
-/// It matters where an eye far from the origin all but touches something.
+/// It matters where an eye far from the origin all but touches something. So far an eye may be off
+/// to either side as well.
 inline constexpr double kOriginRounding = 1e-15;
 /// Between normals, as a sine; beyond it, an answer may stray as far as the five answers do.
 inline constexpr double kNormalAgreement = 1e-3;

@@ -8,12 +8,6 @@ namespace whittle {
 namespace {
 
 /// What shaders/scene.glsl calls them.
-enum ShaderHalfSpace : uint32_t {
-  kShaderPlane,
-  kShaderSphere,
-  kShaderQuadric,
-  kShaderSmallQuadric
-};
 enum ShaderLeaf : uint32_t { kShaderConjunction, kShaderDisjunction, kShaderTable, kShaderProgram };
 /// And what shaders/resolve.comp calls the steps to an owner.
 enum OwningStep : uint32_t {
@@ -25,10 +19,6 @@ enum OwningStep : uint32_t {
   kElsewhere,
   kNotElsewhere
 };
-
-/// Curved surfaces whose radius is below this share of the region's longest edge get the arithmetic
-/// for small ones, as in docs/numerics.md.
-constexpr double kSmall = 1.0 / 64;
 
 class Flattener {
  public:
@@ -66,17 +56,12 @@ class Flattener {
   void add_half_space(const HalfSpace& h) {
     std::vector<uint32_t>& to = flat_.half_spaces;
     const size_t first = to.size();
-    // As f is scaled, 2 |c| is the radius, or the least one.
-    const bool small = 2 * std::fabs(h.f.c) < kSmall * max_component(scene_.region.size());
-    const ShaderHalfSpace kind = h.is_plane()                     ? kShaderPlane
-                                 : small                          ? kShaderSmallQuadric
-                                 : h.kind == SurfaceKind::kSphere ? kShaderSphere
-                                                                  : kShaderQuadric;
+    const ShaderSurface kind = shader_surface(scene_, h);
     add_vector(to, h.center);
-    to.insert(to.end(), {kind, 0});
-    if (kind == kShaderPlane) {
+    to.insert(to.end(), {uint32_t(kind), 0});
+    if (kind == ShaderSurface::kPlane) {
       add_vector(to, h.f.b);
-    } else if (kind == kShaderSphere) {
+    } else if (kind == ShaderSurface::kSphere) {
       add_number(to, h.f.diag.x);
       add_number(to, h.f.c);
     } else {
@@ -158,6 +143,7 @@ class Flattener {
         for (const Step& step : leaf.steps())
           flat_.words.insert(flat_.words.end(), {step.literal, step.on_true, step.on_false});
     }
+    flat_.cases.push_back(leaf_case(scene_, kind, leaf));
     add_vector(flat_.cells, box.lo);
     add_vector(flat_.cells, box.hi);
     flat_.cells.insert(flat_.cells.end(),

@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "subdivide/cells.h"
+#include "trace/vulkan/leaf_case.h"
 
 namespace whittle {
 
@@ -36,6 +37,8 @@ struct FlatCells {
   /// For each cell that must be drawn: box (6 numbers); first literal (in `words`), kind | literals
   /// << 2, and the table, or the first step of the program and nothing.
   std::vector<uint32_t> cells;
+  /// And which shader is made for it; the host keeps that.
+  std::vector<LeafCase> cases;
   /// Literals (literal, owner) of each leaf, then the number of its owning steps and these (kind |
   /// operand << 3, owner); and steps of programs (test, on true, on false).
   std::vector<uint32_t> words;

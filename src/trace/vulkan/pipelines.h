@@ -5,6 +5,7 @@
 
 #include "gpu/memory.h"
 #include "gpu/owned.h"
+#include "trace/vulkan/leaf_case.h"
 
 namespace whittle {
 
@@ -17,8 +18,13 @@ enum Binding : uint32_t {
   kPositionsBinding,
   kSeenBinding,
   kHitsBinding,
+  kDepthsBinding,
+  kPyramidBinding,
+  kInstancesBinding,
+  kDrawsBinding,
+  kLastSeenBinding,
 };
-inline constexpr uint32_t kBindings = 7;
+inline constexpr uint32_t kBindings = 12;
 
 /// What the device draws into.
 inline constexpr VkFormat kSeenFormat = VK_FORMAT_R32_UINT;
@@ -39,17 +45,14 @@ inline constexpr uint32_t kBoxIndices = 18, kSquareIndices = 6;
 struct Pipelines {
   gpu::Owned<VkDescriptorSetLayout> set_layout;
   gpu::Owned<VkPipelineLayout> layout;
-  gpu::Owned<VkPipeline> draw;
-  gpu::Owned<VkPipeline> resolve;
+  gpu::Owned<VkShaderModule> cells, visible;
+  std::array<gpu::Owned<VkPipeline>, kLeafCases> draw;  ///< those that were needed so far
+  gpu::Owned<VkPipeline> resolve, pyramid, hidden;
 };
+/// All but the drawing ones.
 Result<Pipelines> make_pipelines(const gpu::Device& device, bool doubles, bool storage);
-
-/// What the pipelines read and write: one set of it.
-struct Bindings {
-  gpu::Owned<VkDescriptorPool> pool;
-  VkDescriptorSet set = VK_NULL_HANDLE;
-};
-Result<Bindings> make_bindings(const gpu::Device& device, const Pipelines& pipelines, bool storage);
+/// Adds the one that draws such leaves.
+Status add_draw(const gpu::Device& device, LeafCase leaf, Pipelines& pipelines);
 
 /// What kind of descriptor a binding has.
 VkDescriptorType descriptor_type(uint32_t binding, bool storage);
