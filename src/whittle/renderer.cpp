@@ -96,7 +96,6 @@ void Renderer::prepare(const Camera& camera) {
   const auto start = Clock::now();
   s.cells.reset();
   SubdivideSettings settings = s.settings.subdivide;
-  settings.threads = s.settings.threads;
   settings.rays = double(camera.width) * double(camera.height);
   if (s.settings.pixel_threshold > 0) {
     settings.is_small = [camera, pixels = s.settings.pixel_threshold](const Box& box) {

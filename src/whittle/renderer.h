@@ -36,7 +36,7 @@ constexpr int default_antialias(Style style) {
 struct RendererSettings {
   Backend backend = Backend::kAuto;
   int threads = 0;              ///< 0: all
-  SubdivideSettings subdivide;  ///< `threads` and `is_small` are set from here and below
+  SubdivideSettings subdivide;  ///< `rays` and `is_small` are set from the camera and below
   bool eager = false;           ///< refine all cells at once, and not where rays come
   double pixel_threshold = 0;   ///< cells whose edges are all shorter are small; 0: none is
 };
