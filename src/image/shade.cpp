@@ -74,24 +74,24 @@ Shader::Shader(const Camera& camera, std::span<const Appearance> appearances,
       *settings.lone_primitive < p.materials.size())
     p.materials[*settings.lone_primitive] = to_unit(scheme.lone);
   if (p.materials.empty()) p.materials.push_back({});  // the background's
-  material_ = uint32_t(p.materials.size());
-  cut_ = material_ + 1;
+  p.last = uint32_t(p.materials.size());
+  cut_ = p.last + 1;
   p.materials.insert(p.materials.end(), {material, cut});
 }
 
 template <class Place>
 void Shader::look(std::span<const Hit> hits, const Place& place, SeenHits& seen) const {
   seen.hits = hits;
+  if (cut_faces_ == nullptr) return;
   seen.looks.resize(hits.size() + kMostFloatLanes);
   std::fill(seen.looks.begin() + std::ptrdiff_t(hits.size()), seen.looks.end(), 0);
-  for (size_t i = 0; i < hits.size(); ++i) seen.looks[i] = std::min(hits[i].id, material_);
-  if (cut_faces_ == nullptr) return;
+  for (size_t i = 0; i < hits.size(); ++i) seen.looks[i] = std::min(hits[i].id, parameters_.last);
   for (size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i].hit() || !cut_faces_->is_contested(hits[i].id)) continue;
     const PixelPosition at = place(i);
     const Ray ray = camera_.ray(at.x, at.y);
     const Vec3 point = ray.origin + ray.direction * double(hits[i].distance);
-    seen.looks[i] = cut_faces_->is_cut(hits[i].id, point) ? cut_ : material_;
+    seen.looks[i] = cut_faces_->is_cut(hits[i].id, point) ? cut_ : parameters_.last;
   }
 }
 

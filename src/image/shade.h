@@ -66,7 +66,7 @@ class Shader {
 
   Camera camera_;
   ShadeParameters parameters_;
-  uint32_t material_, cut_;    ///< of parameters_.materials: without color()
+  uint32_t cut_;               ///< of parameters_.materials: without color(), as last
   const CutFaces* cut_faces_;  ///< kOpenscad
 };
 

@@ -1,7 +1,10 @@
 #include "image/shade_lanes.h"
 
+#include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstring>
+#include <iterator>
 
 // This file is compiled once for every instruction set; see foreach_target.h.
 #undef HWY_TARGET_INCLUDE
@@ -105,9 +108,16 @@ HWY_INLINE Real3 background(const ShadeParameters& p, Real py) {
   return mix(set(p.top), set(p.bottom), hn::Mul(py, set(p.inverse_height)));
 }
 
+/// Which of the materials the hits have.
+HWY_INLINE Word load_looks(const ShadeParameters& p, const SeenHits& seen, size_t i, Word id) {
+  return seen.looks.empty() ? hn::Min(id, hn::Set(DU(), p.last)) : hn::LoadU(DU(), &seen.looks[i]);
+}
+
 /// The base colours. Neighbours mostly have one, and looking up many takes longer.
-HWY_INLINE Real3 load_materials(const ShadeParameters& p, const uint32_t* looks, Word look) {
-  if (hn::AllTrue(DU(), hn::Eq(look, hn::Set(DU(), looks[0])))) return set(p.materials[looks[0]]);
+HWY_INLINE Real3 load_materials(const ShadeParameters& p, Word look) {
+  const uint32_t first_look = hn::GetLane(look);
+  if (hn::AllTrue(DU(), hn::Eq(look, hn::Set(DU(), first_look))))
+    return set(p.materials[first_look]);
   const Int at = hn::Mul(hn::BitCast(DI(), look), hn::Set(DI(), 3));
   const Vec3f& first = p.materials[0];
   return {hn::GatherIndex(D(), &first.x, at), hn::GatherIndex(D(), &first.y, at),
@@ -116,11 +126,9 @@ HWY_INLINE Real3 load_materials(const ShadeParameters& p, const uint32_t* looks,
 
 /// The surfaces' colours; anything where nothing is hit.
 template <class Look>
-HWY_INLINE Real3 surface(const ShadeParameters& p, const SeenHits& seen, size_t i, size_t count,
-                         Word look, Real px, Real py) {
-  const Hit* hits = &seen.hits[i];
-  return Look::color(p, {load_normals(hits, count), load_materials(p, &seen.looks[i], look),
-                         load_distances(hits, count), px, py});
+HWY_INLINE Real3 surface(const ShadeParameters& p, const HitLanes& hits, Word look, Real px,
+                         Real py) {
+  return Look::color(p, {hits.normal, load_materials(p, look), hits.distance, px, py});
 }
 
 /// Values in 0..1 as 8 bits, rounded; what lies outside is clamped and NaN is 0.
@@ -161,12 +169,13 @@ void row(const ShadeParameters& p, const SeenHits& seen, int y, uint8_t* rgba) {
   const Word behind = p.has_background ? pack(p, background(p, py), set(1)) : hn::Zero(DU());
   for (size_t i = 0; i < seen.hits.size(); i += hn::Lanes(D())) {
     const size_t count = std::min(seen.hits.size() - i, hn::Lanes(D()));
-    const Word look = hn::LoadU(DU(), &seen.looks[i]);
+    const HitLanes hits = load_hits(&seen.hits[i], count);
+    const Word look = load_looks(p, seen, i, hits.id);
     const auto missed = hn::Eq(look, hn::Zero(DU()));
     Word pixels = behind;
     if (!hn::AllTrue(DU(), missed)) {
       const Real px = hn::Add(hn::Iota(D(), float(i)), set(0.5f));
-      const Real3 color = surface<Look>(p, seen, i, count, look, px, py);
+      const Real3 color = surface<Look>(p, hits, look, px, py);
       pixels = hn::IfThenElse(missed, behind, pack(p, color, set(1)));
     }
     store(pixels, count, rgba + 4 * i);
@@ -182,10 +191,10 @@ void samples(const ShadeParameters& p, const SeenHits& seen, std::span<const Pix
     HWY_ALIGN float x[kMostFloatLanes] = {}, y[kMostFloatLanes] = {};
     for (size_t k = 0; k < count; ++k) x[k] = places[i + k].x, y[k] = places[i + k].y;
     const Real px = hn::Load(D(), x), py = hn::Load(D(), y);
-    const Word look = hn::LoadU(DU(), &seen.looks[i]);
+    const HitLanes hits = load_hits(&seen.hits[i], count);
+    const Word look = load_looks(p, seen, i, hits.id);
     const auto missed = hn::RebindMask(D(), hn::Eq(look, hn::Zero(DU())));
-    const Real3 color =
-        select(missed, background(p, py), surface<Look>(p, seen, i, count, look, px, py));
+    const Real3 color = select(missed, background(p, py), surface<Look>(p, hits, look, px, py));
     hn::StoreU(color.x, D(), &colors.r[i]);
     hn::StoreU(color.y, D(), &colors.g[i]);
     hn::StoreU(color.z, D(), &colors.b[i]);

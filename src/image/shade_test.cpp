@@ -262,7 +262,7 @@ TEST(Shade, ThePictureIsTheSamplesInThePixelsMiddlesWhateverTheThreads) {
     const Camera camera = default_camera(width, 47);
     const std::vector<PixelPosition> places = middles(frame);
     for (const ShadeSettings& settings : all_settings()) {
-      const Picture p = shade(frame, camera, kAppearances, settings, kWorkers);
+      const Picture p = shade(frame, camera, kAppearances, settings, Workers(0));
       const std::vector<uint8_t> samples =
           shade_samples_of(frame.hits, places, camera, kAppearances, settings);
       for (size_t i = 0; i < frame.hits.size(); ++i) {
@@ -283,11 +283,11 @@ TEST(Shade, EveryInstructionSetGivesTheSameBytes) {
     Camera camera = default_camera(67, 40);
     camera.orthographic = orthographic;
     for (const ShadeSettings& settings : all_settings()) {
-      const Picture expected = shade(frame, camera, kAppearances, settings, kWorkers);
+      const Picture expected = shade(frame, camera, kAppearances, settings, Workers(0));
       const std::vector<uint8_t> samples =
           shade_samples_of(frame.hits, middles(frame), camera, kAppearances, settings);
       for_every_instruction_set([&] {
-        EXPECT_EQ(shade(frame, camera, kAppearances, settings, kWorkers).rgba, expected.rgba);
+        EXPECT_EQ(shade(frame, camera, kAppearances, settings, Workers(0)).rgba, expected.rgba);
         EXPECT_EQ(shade_samples_of(frame.hits, middles(frame), camera, kAppearances, settings),
                   samples);
       });

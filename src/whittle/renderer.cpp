@@ -135,7 +135,6 @@ Status Renderer::State::make_tracer(const Camera& camera) {
   const auto start = Clock::now();
   cells.reset();
   SubdivideSettings subdivision = settings.subdivide;
-  subdivision.threads = settings.threads;
   subdivision.rays = double(camera.width) * double(camera.height);
   if (settings.pixel_threshold > 0) {
     subdivision.is_small = [camera, pixels = settings.pixel_threshold](const Box& box) {
