@@ -10,7 +10,7 @@ namespace whittle {
 namespace {
 
 /// Of a picture like no other before it, so many of the cells are drawn in the first pass.
-constexpr double kFrontShare = 0.25;
+constexpr double kFrontShare = 0.1;
 
 /// Invocations in a workgroup of shaders/hidden.comp.
 constexpr uint32_t kTestGroup = 64;

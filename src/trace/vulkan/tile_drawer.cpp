@@ -113,6 +113,11 @@ Status TileDrawer::resize(int width, int height) {
                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Placement::kDevice);
       !done)
     return done;
+  if (Status done = make_buffer(places_, (pixels + 1) * sizeof(uint32_t),
+                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Placement::kUpload);
+      !done)
+    return done;
+  bindings_->bind(kPlacesBinding, places_);
   bindings_->bind(kPyramidBinding, pyramid_);
   bindings_->bind(kDepthsBinding, depth_);
   bindings_->bind(kPositionsBinding, positions_);
@@ -157,6 +162,9 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
     std::memcpy(positions_.buffer.mapped(), layer->positions.data(),
                 layer->positions.size() * sizeof(PixelPosition));
     std::memcpy(asked_.mapped(), layer->depth.data(), layer->depth.size() * sizeof(float));
+    auto* to = static_cast<uint32_t*>(places_.mapped());
+    *to++ = uint32_t(layer->places.size());
+    for (const ProbeLayer::Place& place : layer->places) *to++ = place.pixel;
   }
 
   Result<VkCommandBuffer> recording = commands_->begin();
@@ -169,7 +177,7 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
     record_drawing(*recording, pass, has_asked);
   }
   commands_->stamp();
-  record_resolving(*recording);
+  record_resolving(*recording, layer);
   commands_->stamp();
   if (Status done = commands_->run(); !done) return done;
   const std::vector<double> times = commands_->intervals();
@@ -251,11 +259,15 @@ void TileDrawer::record_drawing(VkCommandBuffer commands, DrawList::Pass pass,
   vkCmdEndRendering(commands);
 }
 
-void TileDrawer::record_resolving(VkCommandBuffer commands) const {
+void TileDrawer::record_resolving(VkCommandBuffer commands, const ProbeLayer* layer) const {
   gpu::change_use(commands, seen_.handle(), seen_.aspect(), kDrawn, kResolved);
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_->pipelines().resolve.get());
   bindings_->use(commands, VK_PIPELINE_BIND_POINT_COMPUTE);
-  vkCmdDispatch(commands, groups(width_), groups(height_), 1);
+  constexpr uint32_t kGroup = kGroupSide * kGroupSide;
+  if (layer != nullptr)
+    vkCmdDispatch(commands, (uint32_t(layer->places.size()) + kGroup - 1) / kGroup, 1, 1);
+  else
+    vkCmdDispatch(commands, groups(width_), groups(height_), 1);
   gpu::wait_for(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                 VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT,
                 VK_ACCESS_2_HOST_READ_BIT);

@@ -24,7 +24,7 @@ class TileDrawer {
   Status draw(const ViewData& view, std::span<const VisibleCell> cells,
               std::span<const LeafCase> cases, const ProbeLayer* layer, RasterStats& stats);
 
-  /// Row by row, until the next draw().
+  /// Row by row, or in the order of the layer's places; until the next draw().
   const Hit* hits() const { return static_cast<const Hit*>(hits_.mapped()); }
 
  private:
@@ -34,7 +34,7 @@ class TileDrawer {
   void record_asked(VkCommandBuffer commands) const;
   void record_test(VkCommandBuffer commands, DrawList::Pass pass) const;
   void record_drawing(VkCommandBuffer commands, DrawList::Pass pass, bool has_asked) const;
-  void record_resolving(VkCommandBuffer commands) const;
+  void record_resolving(VkCommandBuffer commands, const ProbeLayer* layer) const;
 
   const gpu::Device& gpu() const { return device_->gpu(); }
   Status make_buffer(gpu::Buffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage,
@@ -48,6 +48,7 @@ class TileDrawer {
   uint32_t picture_ = 0;
   gpu::Buffer pyramid_;
   ReadBuffer positions_;  ///< where in the picture each pixel looks, if there is a layer
+  gpu::Buffer places_;    ///< how many of them do, and which
   gpu::Buffer asked_;     ///< and depths that shut the pixels of which nothing is asked
   gpu::Image seen_, depth_;
   int width_ = 0, height_ = 0;
