@@ -39,7 +39,14 @@ namespace {
 struct Seen {
   Real3 normal, base;
   Real distance, px, py;
+  Word shadows;
 };
+
+/// 0 where a light of that bit does not reach.
+HWY_INLINE Real where_lit(const Seen& s, uint32_t bit, Real v) {
+  const auto dark = hn::TestBit(s.shadows, hn::Set(DU(), bit));
+  return hn::IfThenZeroElse(hn::RebindMask(D(), dark), v);
+}
 
 // OpenSCAD: rgb = base * (0.2 + |n.l|), two opposite lights fixed to the camera.
 struct Openscad {
@@ -55,7 +62,7 @@ struct Blinn {
     const Real3 d = ray_direction(p.rays, s.px, s.py);
     const Real3 n = select(hn::Gt(dot(s.normal, d), set(0)), negate(s.normal), s.normal);
     const Real3 l = unit(sub(set(p.light_from_eye), ray_point(p.rays, d, s.distance, s.px, s.py)));
-    const Real n_l = dot(n, l);
+    const Real n_l = where_lit(s, 1, dot(n, l));
     Real highlight = positive(dot(n, unit(sub(l, d))));
     static_assert(kBlinnExponent == 16);
     for (int i = 0; i < 4; ++i) highlight = hn::Mul(highlight, highlight);
@@ -76,9 +83,11 @@ struct Studio {
     const Real3 n = select(inner, negate(s.normal), s.normal);
     n_d = hn::IfThenElse(inner, hn::Neg(n_d), n_d);
 
+    const float wrap = p.has_shadows ? 0 : kKeyWrap;
     const Real key =
-        positive(hn::Div(hn::Add(dot(n, set(p.key)), set(kKeyWrap)), set(1 + kKeyWrap)));
-    const Real fill = positive(dot(n, set(p.fill))), rim = positive(dot(n, set(p.rim)));
+        where_lit(s, 1, positive(hn::Div(hn::Add(dot(n, set(p.key)), set(wrap)), set(1 + wrap))));
+    const Real fill = where_lit(s, 2, positive(dot(n, set(p.fill))));
+    const Real rim = where_lit(s, 4, positive(dot(n, set(p.rim))));
     Real3 light = surroundings(n.z);
     light = add(light, scale(set(kKeyColor), key));
     light = add(light, scale(set(kFillColor), fill));
@@ -89,7 +98,7 @@ struct Studio {
     const Real growth = hn::Mul(
         hn::Mul(hn::Mul(set(kGrazingReflectance - kReflectance), grazing2), grazing2), grazing);
     const Real reflectance = hn::Add(set(kReflectance), growth);
-    Real highlight = positive(dot(mirrored, set(p.key)));
+    Real highlight = where_lit(s, 1, positive(dot(mirrored, set(p.key))));
     for (int i = 0; i < 5; ++i) highlight = hn::Mul(highlight, highlight);
     const Real3 reflected = add(scale(surroundings(mirrored.z), hn::Mul(set(2), reflectance)),
                                 scale(set(kKeyColor), hn::Mul(highlight, set(kHighlight))));
@@ -120,7 +129,7 @@ HWY_INLINE Real3 surface(const ShadeParameters& p, const SeenHits& seen, size_t 
                          Word look, Real px, Real py) {
   const Hit* hits = &seen.hits[i];
   return Look::color(p, {load_normals(hits, count), load_materials(p, &seen.looks[i], look),
-                         load_distances(hits, count), px, py});
+                         load_distances(hits, count), px, py, hn::LoadU(DU(), &seen.shadows[i])});
 }
 
 /// Values in 0..1 as 8 bits, rounded; what lies outside is clamped and NaN is 0.
