@@ -26,6 +26,10 @@ struct Basis {
   Vec3 of(Vec3 v) const { return {dot(v, right), dot(v, up), dot(v, forward)}; }
 };
 
+Vec3 to_double(Vec3f v) {
+  return {double(v.x), double(v.y), double(v.z)};
+}
+
 /// Which of the six directions along the axes is nearest: 0 to 5.
 int nearest_axis(Vec3 v) {
   const Vec3 size{std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)};
@@ -68,11 +72,10 @@ void Shadows::find(std::span<const Hit> hits, std::span<const PixelPosition> pla
     for (size_t i = first; i < last; ++i) {
       if (!hits[i].hit()) continue;
       const Ray ray = camera_.ray(double(places[i].x), double(places[i].y));
-      const double way = double(hits[i].distance);
+      const float way = hits[i].distance;
       const Vec3f n = hits[i].normal;
-      const Vec3 normal{double(n.x), double(n.y), double(n.z)};
-      const bool from_inside = dot(normal, ray.direction) > 0;
-      seen_[i] = {ray.origin + ray.direction * way, from_inside ? normal * -1 : normal,
+      const bool from_inside = dot(to_double(n), ray.direction) > 0;
+      seen_[i] = {ray.origin + ray.direction * double(way), from_inside ? n * -1.0f : n,
                   std::fabs(way)};
     }
   });
@@ -90,9 +93,9 @@ void Shadows::find_light(const Light& light, uint8_t bit, std::span<const Hit> h
     if (!hits[i].hit()) continue;
     const Seen& seen = seen_[i];
     const Vec3 to_light = light.is_direction ? light.at : normalize(light.at - seen.point);
-    const double cosine = dot(seen.normal, to_light);
+    const auto cosine = float(dot(to_double(seen.normal), to_light));
     if (!(cosine > 0)) continue;
-    targets_.push_back({i, seen.point, cosine, seen.way});
+    targets_.push_back({uint32_t(i), cosine});
     box.include(seen.point);
   }
   if (targets_.empty()) return;
@@ -103,7 +106,7 @@ void Shadows::find_light(const Light& light, uint8_t bit, std::span<const Hit> h
   for (int axis = 0; axis < 6; ++axis) {
     group_.clear();
     std::ranges::copy_if(targets_, std::back_inserter(group_), [&](const Target& target) {
-      return nearest_axis(target.point - light.at) == axis;
+      return nearest_axis(seen_[target.hit].point - light.at) == axis;
     });
     if (!group_.empty()) look_from(light, along_axis(axis), group_, bit, shadows);
   }
@@ -117,7 +120,7 @@ void Shadows::look_from(const Light& light, Vec3 forward, std::span<const Target
   along_.resize(targets.size());
   workers_.for_parts(targets.size(), kTargetsPerTask, [&](size_t first, size_t last, size_t) {
     for (size_t i = first; i < last; ++i) {
-      along_[i] = basis.of(targets[i].point - from);
+      along_[i] = basis.of(seen_[targets[i].hit].point - from);
       if (!light.is_direction) along_[i].x /= along_[i].z, along_[i].y /= along_[i].z;
     }
   });
@@ -147,11 +150,11 @@ void Shadows::look_from(const Light& light, Vec3 forward, std::span<const Target
   workers_.for_parts(targets.size(), kTargetsPerTask, [&](size_t first, size_t last, size_t) {
     for (size_t i = first; i < last; ++i) {
       if (!found_[i].hit()) continue;
-      const Target& target = targets[i];
-      const double way = light.is_direction ? along_[i].z : length(target.point - from);
-      const double slack =
-          kShadowTolerance * (target.way + std::fabs(way)) * (1 + 1 / target.cosine);
-      if (double(found_[i].distance) < way - slack) shadows[target.hit] |= bit;
+      const Seen& seen = seen_[targets[i].hit];
+      const double way = light.is_direction ? along_[i].z : length(seen.point - from);
+      const double slack = kShadowTolerance * (double(seen.way) + std::fabs(way)) *
+                           (1 + 1 / double(targets[i].cosine));
+      if (double(found_[i].distance) < way - slack) shadows[targets[i].hit] |= bit;
     }
   });
 }

@@ -33,14 +33,14 @@ class Shadows {
  private:
   /// A hit, and the normal of its side that is seen.
   struct Seen {
-    Vec3 point, normal;
-    double way;  ///< from the eye
+    Vec3 point;
+    Vec3f normal;
+    float way;  ///< from the eye
   };
   /// A hit that faces a light.
   struct Target {
-    size_t hit;
-    Vec3 point;
-    double cosine, way;  ///< of the light's fall; from the eye
+    uint32_t hit;
+    float cosine;  ///< of the light's fall
   };
 
   void find_light(const Light& light, uint8_t bit, std::span<const Hit> hits,
