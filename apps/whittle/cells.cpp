@@ -63,6 +63,7 @@ void add_options(CommandLine& line, CellsArguments& a) {
   look.add_choice("--style", style_choices(), "style", "{}",
                   [&](Style style) { a.shading.style = style; });
   add_color_options(app, a.shading);
+  add_shadow_option(app, a.shading);
   look.add_flag("--no-background", a.no_background, "what is not hit is transparent");
   add_loading_options(app, a.loading);
   add_machine_options(app, a.renderer, a.without_effect);
@@ -92,6 +93,7 @@ Status run(CellsArguments& a) {
   if (a.renderer.backend == Backend::kOracle) {
     return Error{ErrorKind::kUsage, "backend oracle has no cells"};
   }
+  if (Status possible = check_shadows(a.shading); !possible) return possible;
   if (Status possible = check_writable(a.output); !possible) return possible;
   if (!a.loading.quiet) say_without_effect(a.without_effect);
   suit_style(a.shading.style, a.loading);

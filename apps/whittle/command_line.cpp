@@ -113,6 +113,12 @@ void add_color_options(CLI::App& app, ShadeSettings& shading) {
                  });
 }
 
+void add_shadow_option(CLI::App& app, ShadeSettings& shading) {
+  OptionGroup(app, "Look")
+      .add_flag("--shadows", shading.shadows,
+                "lights reach only what they see (not in style openscad)");
+}
+
 void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffect& without_effect) {
   OptionGroup group(app, "Machine");
   group.add_text("--backend", "NAME",

@@ -42,7 +42,14 @@ namespace {
 struct Seen {
   Real3 normal, base;
   Real distance, px, py;
+  Word shadows;
 };
+
+/// 0 where a light of that bit does not reach.
+HWY_INLINE Real where_lit(const Seen& s, uint32_t bit, Real v) {
+  const auto dark = hn::TestBit(s.shadows, hn::Set(DU(), bit));
+  return hn::IfThenZeroElse(hn::RebindMask(D(), dark), v);
+}
 
 // OpenSCAD: rgb = base * (0.2 + |n.l|), two opposite lights fixed to the camera.
 struct Openscad {
@@ -58,7 +65,7 @@ struct Blinn {
     const Real3 d = ray_direction(p.rays, s.px, s.py);
     const Real3 n = select(hn::Gt(dot(s.normal, d), set(0)), negate(s.normal), s.normal);
     const Real3 l = unit(sub(set(p.light_from_eye), ray_point(p.rays, d, s.distance, s.px, s.py)));
-    const Real n_l = dot(n, l);
+    const Real n_l = where_lit(s, 1, dot(n, l));
     Real highlight = positive(dot(n, unit(sub(l, d))));
     static_assert(kBlinnExponent == 16);
     for (int i = 0; i < 4; ++i) highlight = hn::Mul(highlight, highlight);
@@ -79,9 +86,11 @@ struct Studio {
     const Real3 n = select(inner, negate(s.normal), s.normal);
     n_d = hn::IfThenElse(inner, hn::Neg(n_d), n_d);
 
+    const float wrap = p.has_shadows ? 0 : kKeyWrap;
     const Real key =
-        positive(hn::Div(hn::Add(dot(n, set(p.key)), set(kKeyWrap)), set(1 + kKeyWrap)));
-    const Real fill = positive(dot(n, set(p.fill))), rim = positive(dot(n, set(p.rim)));
+        where_lit(s, 1, positive(hn::Div(hn::Add(dot(n, set(p.key)), set(wrap)), set(1 + wrap))));
+    const Real fill = where_lit(s, 2, positive(dot(n, set(p.fill))));
+    const Real rim = where_lit(s, 4, positive(dot(n, set(p.rim))));
     Real3 light = surroundings(n.z);
     light = add(light, scale(set(kKeyColor), key));
     light = add(light, scale(set(kFillColor), fill));
@@ -92,7 +101,7 @@ struct Studio {
     const Real growth = hn::Mul(
         hn::Mul(hn::Mul(set(kGrazingReflectance - kReflectance), grazing2), grazing2), grazing);
     const Real reflectance = hn::Add(set(kReflectance), growth);
-    Real highlight = positive(dot(mirrored, set(p.key)));
+    Real highlight = where_lit(s, 1, positive(dot(mirrored, set(p.key))));
     for (int i = 0; i < 5; ++i) highlight = hn::Mul(highlight, highlight);
     const Real3 reflected = add(scale(surroundings(mirrored.z), hn::Mul(set(2), reflectance)),
                                 scale(set(kKeyColor), hn::Mul(highlight, set(kHighlight))));
@@ -112,6 +121,10 @@ HWY_INLINE Real3 background(const ShadeParameters& p, Real py) {
 HWY_INLINE Word load_looks(const ShadeParameters& p, const SeenHits& seen, size_t i, Word id) {
   return seen.looks.empty() ? hn::Min(id, hn::Set(DU(), p.last)) : hn::LoadU(DU(), &seen.looks[i]);
 }
+/// And which lights do not reach them.
+HWY_INLINE Word load_shadows(const SeenHits& seen, size_t i) {
+  return seen.shadows.empty() ? hn::Zero(DU()) : hn::LoadU(DU(), &seen.shadows[i]);
+}
 
 /// The base colours. Neighbours mostly have one, and looking up many takes longer.
 HWY_INLINE Real3 load_materials(const ShadeParameters& p, Word look) {
@@ -126,9 +139,9 @@ HWY_INLINE Real3 load_materials(const ShadeParameters& p, Word look) {
 
 /// The surfaces' colours; anything where nothing is hit.
 template <class Look>
-HWY_INLINE Real3 surface(const ShadeParameters& p, const HitLanes& hits, Word look, Real px,
-                         Real py) {
-  return Look::color(p, {hits.normal, load_materials(p, look), hits.distance, px, py});
+HWY_INLINE Real3 surface(const ShadeParameters& p, const HitLanes& hits, Word look, Word shadow,
+                         Real px, Real py) {
+  return Look::color(p, {hits.normal, load_materials(p, look), hits.distance, px, py, shadow});
 }
 
 /// Values in 0..1 as 8 bits, rounded; what lies outside is clamped and NaN is 0.
@@ -175,7 +188,7 @@ void row(const ShadeParameters& p, const SeenHits& seen, int y, uint8_t* rgba) {
     Word pixels = behind;
     if (!hn::AllTrue(DU(), missed)) {
       const Real px = hn::Add(hn::Iota(D(), float(i)), set(0.5f));
-      const Real3 color = surface<Look>(p, hits, look, px, py);
+      const Real3 color = surface<Look>(p, hits, look, load_shadows(seen, i), px, py);
       pixels = hn::IfThenElse(missed, behind, pack(p, color, set(1)));
     }
     store(pixels, count, rgba + 4 * i);
@@ -194,7 +207,8 @@ void samples(const ShadeParameters& p, const SeenHits& seen, std::span<const Pix
     const HitLanes hits = load_hits(&seen.hits[i], count);
     const Word look = load_looks(p, seen, i, hits.id);
     const auto missed = hn::RebindMask(D(), hn::Eq(look, hn::Zero(DU())));
-    const Real3 color = select(missed, background(p, py), surface<Look>(p, hits, look, px, py));
+    const Real3 color = select(missed, background(p, py),
+                               surface<Look>(p, hits, look, load_shadows(seen, i), px, py));
     hn::StoreU(color.x, D(), &colors.r[i]);
     hn::StoreU(color.y, D(), &colors.g[i]);
     hn::StoreU(color.z, D(), &colors.b[i]);

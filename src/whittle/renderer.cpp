@@ -40,6 +40,11 @@ Status check_picture_size(int64_t width, int64_t height) {
                            width, height, kMostSide, kMostPixels)};
 }
 
+Status check_shadows(const ShadeSettings& settings) {
+  if (!settings.shadows || settings.style != Style::kOpenscad) return Done{};
+  return Error{ErrorKind::kUsage, "style openscad has no shadows, as OpenSCAD has none"};
+}
+
 struct Renderer::State {
   const Model& model;
   RendererSettings settings;
@@ -185,6 +190,7 @@ Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
     look.cut_faces = &*s.cut_faces;
     look.lone_primitive = lone_primitive(s.model);
   }
+  if (look.shadows) look.casters = view_region(bounds(s.model));
   const auto shaded = [&] {
     return shade_antialiased(tracer(), camera, frame, s.looks, look, antialias, s.workers);
   };

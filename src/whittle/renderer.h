@@ -29,6 +29,9 @@ inline constexpr int kMostThreads = 1024;
 /// A kUsage error if a picture of that size is not made.
 Status check_picture_size(int64_t width, int64_t height);
 
+/// A kUsage error if shadows are asked for in a style that has none.
+Status check_shadows(const ShadeSettings& settings);
+
 /// Rays a side of an edge pixel where nobody says: what looks right. The styles that show what
 /// others show (the paper, OpenSCAD) have no antialiasing, as those have none.
 constexpr int default_antialias(Style style) {
