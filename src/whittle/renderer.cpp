@@ -140,9 +140,13 @@ Status Renderer::State::make_tracer(const Camera& camera) {
   }
   cells = open_cells(scene, subdivision);
   const bool is_raster = settings.backend == Backend::kVulkanRaster;
-  settings.eager || is_raster ? refine_all(*cells, workers) : refine_top(*cells, workers);
+  if (settings.eager)
+    refine_all(*cells, workers);
+  else if (!is_raster)
+    refine_top(*cells, workers);
   if (is_raster) {
-    Result<std::unique_ptr<RasterTracer>> raster = make_raster_tracer(device, scene, *cells);
+    Result<std::unique_ptr<RasterTracer>> raster =
+        make_raster_tracer(device, scene, *cells, settings.threads);
     if (!raster) return raster.error();
     tracer = *std::move(raster);
   } else {

@@ -36,6 +36,8 @@ constexpr gpu::ImageUse kDrawn{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
 constexpr gpu::ImageUse kResolved{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                   VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+constexpr gpu::ImageUse kCopied{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
+                                VK_ACCESS_2_TRANSFER_READ_BIT};
 
 }  // namespace
 
@@ -72,7 +74,8 @@ Status TileDrawer::resize(int width, int height) {
   width_ = height_ = 0;
   Result<Image> seen =
       Image::make(gpu(), kSeenFormat, side_for(width), side_for(height),
-                  VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+                  VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                      VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
   if (!seen) return seen.error();
   seen_ = *std::move(seen);
   Result<Image> depth =
@@ -96,28 +99,41 @@ Status TileDrawer::resize(int width, int height) {
   bindings_->bind(kPositionsBinding, positions_);
   bindings_->bind(kHitsBinding, hits_);
   bindings_->bind(kSeenBinding, seen_);
+  seen_copy_ = {};
   width_ = width;
   height_ = height;
   return Done{};
 }
 
 Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells,
-                        const ProbeLayer* layer, RasterStats& stats) {
-  if (Status done = resize(view.tile_size[0], view.tile_size[1]); !done) return done;
-  std::memcpy(view_.mapped(), &view, sizeof(view));
-  if (layer != nullptr) {
-    std::memcpy(positions_.buffer.mapped(), layer->positions.data(),
-                layer->positions.size() * sizeof(PixelPosition));
-    std::memcpy(asked_.mapped(), layer->depth.data(), layer->depth.size() * sizeof(float));
+                        const ProbeLayer* layer, RasterStats& stats, const DrawPart& part) {
+  if (cells.size() > kMostRanks - part.rank)
+    return Error{ErrorKind::kMachine, "more cells than a depth buffer can tell apart"};
+  if (part.is_first) {
+    if (Status done = resize(view.tile_size[0], view.tile_size[1]); !done) return done;
+    std::memcpy(view_.mapped(), &view, sizeof(view));
+    if (layer != nullptr) {
+      std::memcpy(positions_.buffer.mapped(), layer->positions.data(),
+                  layer->positions.size() * sizeof(PixelPosition));
+      std::memcpy(asked_.mapped(), layer->depth.data(), layer->depth.size() * sizeof(float));
+    }
   }
-  if (Status done = make_instances(cells); !done) return done;
+  if (Status done = make_instances(cells, part.rank); !done) return done;
+  if (!part.is_last && seen_copy_.bytes() == 0) {
+    const VkDeviceSize pixels = VkDeviceSize(width_) * VkDeviceSize(height_);
+    if (Status done = make_buffer(seen_copy_, pixels * sizeof(uint32_t),
+                                  VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kRead);
+        !done)
+      return done;
+  }
 
   Result<VkCommandBuffer> recording = commands_->begin();
   if (!recording) return recording.error();
   commands_->stamp();
-  record_drawing(*recording, layer != nullptr);
+  record_drawing(*recording, layer != nullptr, part);
+  if (!part.is_last) record_copy_of_seen(*recording);
   commands_->stamp();
-  record_resolving(*recording);
+  if (part.is_last || part.wants_hits) record_resolving(*recording);
   commands_->stamp();
   if (Status done = commands_->run(); !done) return done;
   const std::vector<double> times = commands_->intervals();
@@ -129,7 +145,7 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
 }
 
 /// The wide ones first.
-Status TileDrawer::make_instances(std::span<const VisibleCell> cells) {
+Status TileDrawer::make_instances(std::span<const VisibleCell> cells, uint32_t rank) {
   const VkDeviceSize bytes = (cells.size() + 1) * sizeof(Instance);
   if (instances_.bytes() < bytes) {
     // Half as much again as it has.
@@ -140,20 +156,20 @@ Status TileDrawer::make_instances(std::span<const VisibleCell> cells) {
   }
   instance_count_ = uint32_t(cells.size());
   wide_count_ = uint32_t(std::ranges::count_if(cells, &VisibleCell::is_wide));
-  // Steps as large as they can be, powers of two: every depth is exact.
-  const double step = 1 / double(std::bit_ceil(cells.size() + 1));
+  // Powers of two: every depth is exact.
+  constexpr double kStep = 1.0 / (kMostRanks + 1);
   auto* const to = static_cast<Instance*>(instances_.mapped());
   uint32_t next_wide = 0, next_box = wide_count_;
-  for (size_t rank = 0; rank < cells.size(); ++rank) {
-    const VisibleCell& cell = cells[rank];
-    to[cell.is_wide ? next_wide++ : next_box++] = {cell.cell, float(double(rank + 1) * step)};
-  }
+  for (const VisibleCell& cell : cells)
+    to[cell.is_wide ? next_wide++ : next_box++] = {cell.cell, float(kStep * ++rank)};
   return Done{};
 }
 
-void TileDrawer::record_drawing(VkCommandBuffer commands, bool has_asked) const {
+void TileDrawer::record_drawing(VkCommandBuffer commands, bool has_asked, const DrawPart& part) {
   const VkExtent2D extent{uint32_t(width_), uint32_t(height_)};
-  if (has_asked) {
+  if (!part.is_first) {
+    gpu::change_use(commands, depth_.handle(), depth_.aspect(), kTested, kTested);
+  } else if (has_asked) {
     gpu::change_use(commands, depth_.handle(), depth_.aspect(), kUnused, kFilled);
     VkBufferImageCopy copy{};
     copy.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
@@ -164,19 +180,22 @@ void TileDrawer::record_drawing(VkCommandBuffer commands, bool has_asked) const 
   } else {
     gpu::change_use(commands, depth_.handle(), depth_.aspect(), kUnused, kTested);
   }
-  gpu::change_use(commands, seen_.handle(), seen_.aspect(), kUnused, kDrawn);
+  gpu::change_use(commands, seen_.handle(), seen_.aspect(), part.is_first ? kUnused : seen_use_,
+                  kDrawn);
+  seen_use_ = kDrawn;
 
   VkRenderingAttachmentInfo color{};
   color.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
   color.imageView = seen_.view();
   color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-  color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+  color.loadOp = part.is_first ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
   color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
   VkRenderingAttachmentInfo depth = color;
   depth.imageView = depth_.view();
   depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-  depth.loadOp = has_asked ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
-  depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+  depth.loadOp = part.is_first && !has_asked ? VK_ATTACHMENT_LOAD_OP_CLEAR
+                                             : VK_ATTACHMENT_LOAD_OP_LOAD;
+  depth.storeOp = part.is_last ? VK_ATTACHMENT_STORE_OP_DONT_CARE : VK_ATTACHMENT_STORE_OP_STORE;
   depth.clearValue.depthStencil.depth = 1;
   VkRenderingInfo rendering{};
   rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
@@ -202,8 +221,21 @@ void TileDrawer::record_drawing(VkCommandBuffer commands, bool has_asked) const 
   vkCmdEndRendering(commands);
 }
 
-void TileDrawer::record_resolving(VkCommandBuffer commands) const {
-  gpu::change_use(commands, seen_.handle(), seen_.aspect(), kDrawn, kResolved);
+void TileDrawer::record_copy_of_seen(VkCommandBuffer commands) {
+  gpu::change_use(commands, seen_.handle(), seen_.aspect(), seen_use_, kCopied);
+  seen_use_ = kCopied;
+  VkBufferImageCopy copy{};
+  copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  copy.imageExtent = {uint32_t(width_), uint32_t(height_), 1};
+  vkCmdCopyImageToBuffer(commands, seen_.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                         seen_copy_.handle(), 1, &copy);
+  gpu::wait_for(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+}
+
+void TileDrawer::record_resolving(VkCommandBuffer commands) {
+  gpu::change_use(commands, seen_.handle(), seen_.aspect(), seen_use_, kResolved);
+  seen_use_ = kResolved;
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_->pipelines().resolve.get());
   bindings_->use(commands, VK_PIPELINE_BIND_POINT_COMPUTE);
   const auto groups = [](int pixels) { return (uint32_t(pixels) + kGroupSide - 1) / kGroupSide; };
