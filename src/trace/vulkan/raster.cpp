@@ -74,6 +74,13 @@ class RasterTracerImpl final : public RasterTracer {
     return frame;
   }
 
+  void set_up(const Camera& camera) override {
+    for (const PixelRect& tile : tiles_of(pixels_covering(camera, world_region()))) {
+      if (!status_) return;
+      status_ = trace_tile(camera, tile, nullptr, nullptr, {.is_dry = true});
+    }
+  }
+
   void probe(const Camera& camera, std::span<const PixelPosition> positions,
              std::span<Hit> hits) override {
     std::fill(hits.begin(), hits.end(), Hit{});
@@ -116,7 +123,7 @@ class RasterTracerImpl final : public RasterTracer {
 
   /// `show`, if any, is called when some of the tile's pixels are known: others are background yet.
   Status trace_tile(const Camera& camera, const PixelRect& tile, const ProbeLayer* layer,
-                    const std::function<void()>& show) {
+                    const std::function<void()>& show, const DrawPart& part = {}) {
     // A place may be anywhere in its pixel.
     const double margin = device_->margin(camera) + (layer ? 1 : 0);
     const Sight sight(camera, local_eye(scene_, camera), scene_.origin, tile, margin);
@@ -134,7 +141,7 @@ class RasterTracerImpl final : public RasterTracer {
     }
     stats_.order_ms += milliseconds_since(start);
     stats_.drawn += visible_.size();
-    return drawer_.draw(view, visible_, layer, stats_);
+    return drawer_.draw(view, visible_, layer, stats_, part);
   }
 
   /// The first picture: cells are refined while others are drawn.

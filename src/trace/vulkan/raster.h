@@ -45,6 +45,9 @@ struct RasterStats {
 
 class RasterTracer : public Tracer {
  public:
+  /// Does all that render() does, but for drawing and finding facts: what the paper calls the time
+  /// to traverse and set up. Precondition: render() was called.
+  virtual void set_up(const Camera& camera) = 0;
   virtual RasterStats stats() const = 0;
   /// From now on render() calls this with what is known so far, whenever it is more: pixels that are
   /// background may become hits, hits stay what they are.

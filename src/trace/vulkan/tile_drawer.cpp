@@ -119,6 +119,7 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
     }
   }
   if (Status done = make_instances(cells, part.rank); !done) return done;
+  if (part.is_dry) instance_count_ = wide_count_ = 0;
   if (!part.is_last && seen_copy_.bytes() == 0) {
     const VkDeviceSize pixels = VkDeviceSize(width_) * VkDeviceSize(height_);
     if (Status done = make_buffer(seen_copy_, pixels * sizeof(uint32_t),
@@ -133,7 +134,7 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
   record_drawing(*recording, layer != nullptr, part);
   if (!part.is_last) record_copy_of_seen(*recording);
   commands_->stamp();
-  if (part.is_last || part.wants_hits) record_resolving(*recording);
+  if ((part.is_last && !part.is_dry) || part.wants_hits) record_resolving(*recording);
   commands_->stamp();
   if (Status done = commands_->run(); !done) return done;
   const std::vector<double> times = commands_->intervals();

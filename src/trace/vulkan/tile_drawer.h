@@ -16,6 +16,7 @@ namespace whittle {
 struct DrawPart {
   bool is_first = true, is_last = true;
   bool wants_hits = false;  ///< even if it is not the last
+  bool is_dry = false;      ///< all is set up, nothing drawn
   uint32_t rank = 0;        ///< cells that the parts before had
 };
 
