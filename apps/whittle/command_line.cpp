@@ -125,6 +125,9 @@ void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffec
                  "of vulkan backends: its number or a part of its name\n"
                  "(see whittle devices)",
                  [&](const std::string& device) { settings.device = device; });
+  group.add_choice("--shaders", shaders_choices(), "kind of shaders",
+                   "of vulkan-raster: {}; one for\neach case of cells, or one for all",
+                   [&](ShaderCases shaders) { settings.shaders = shaders; });
   group.add_count("--threads", "N", settings.threads, 0, kMostThreads,
                   "0 (all) to 1024; the picture is the same");
 }

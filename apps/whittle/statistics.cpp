@@ -48,6 +48,14 @@ void add_rays(Lines out, const TraceStats& s) {
                  s.disagreements);
 }
 
+void add_drawing(Lines out, const RasterStats& s) {
+  fmt::format_to(out,
+                 "drawn         {:>12}   of {} cells, by {} draws\n"
+                 "device (ms)   {:>12.1f}   draw {:.1f}, resolve {:.1f}; sorted in {:.1f}\n",
+                 s.drawn, s.cells, s.draws, s.draw_ms + s.resolve_ms, s.draw_ms, s.resolve_ms,
+                 s.order_ms);
+}
+
 }  // namespace
 
 size_t peak_memory_bytes() {
@@ -86,7 +94,10 @@ std::string statistics(const Model& model, const Renderer& renderer, bool is_aut
   }
   if (const CellTree* cells = renderer.cells()) {
     add_cells(out, *cells);
-    add_rays(out, renderer.trace_stats());
+    if (renderer.backend() == Backend::kVulkanRaster)
+      add_drawing(out, renderer.raster_stats());
+    else
+      add_rays(out, renderer.trace_stats());
   }
   const StageTimes& s = renderer.times();
   fmt::format_to(

@@ -75,7 +75,8 @@ struct RenderOptions {
 
   std::string backend = "auto";  ///< "auto", "cpu", "vulkan-raster" or "oracle"
   std::string device;            ///< "vulkan-raster": number or part of a name; empty: the best
-  int threads = 0;               ///< 0: all. The result does not depend on it.
+  std::string shaders = "specialised";  ///< "vulkan-raster": or "unified"; the result is the same
+  int threads = 0;                      ///< 0: all. The result does not depend on it.
   /// What the cells that space is cut into may take, bytes; with less every ray takes more time.
   /// The result does not depend on it.
   std::size_t cell_memory = std::size_t(1) << 30;

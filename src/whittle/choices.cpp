@@ -17,6 +17,8 @@ constexpr Choice<Curves> kCurves[] = {
 constexpr Choice<bool> kMatrices[] = {{"polished", true}, {"as-written", false}};
 constexpr Choice<SplitRule> kSplits[] = {{"longest", SplitRule::kLongest},
                                          {"xyz", SplitRule::kXyz}};
+constexpr Choice<ShaderCases> kShaders[] = {{"specialised", ShaderCases::kSpecialised},
+                                            {"unified", ShaderCases::kUnified}};
 constexpr Choice<bool> kProjections[] = {
     {"perspective", false}, {"p", false}, {"orthogonal", true}, {"ortho", true}, {"o", true}};
 constexpr Choice<bool> kSmallCells[] = {{"trace", false}, {"ignore", true}};
@@ -43,6 +45,9 @@ Choices<bool> matrices_choices() {
 }
 Choices<SplitRule> split_choices() {
   return kSplits;
+}
+Choices<ShaderCases> shaders_choices() {
+  return kShaders;
 }
 Choices<bool> projection_choices() {
   return kProjections;

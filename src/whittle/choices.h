@@ -10,6 +10,7 @@
 #include "image/shade.h"
 #include "model/facets.h"
 #include "subdivide/subdivide.h"
+#include "trace/vulkan/raster_settings.h"
 
 namespace whittle {
 
@@ -42,6 +43,7 @@ Choices<Curves> curves_choices();
 /// What becomes of rotations printed with six digits; true: they are polished.
 Choices<bool> matrices_choices();
 Choices<SplitRule> split_choices();
+Choices<ShaderCases> shaders_choices();
 /// OpenSCAD's words for --projection; true: orthographic.
 Choices<bool> projection_choices();
 /// What becomes of cells too small to split; true: they are ignored.

@@ -51,7 +51,8 @@ struct Renderer::State {
   std::optional<CutFaces> cut_faces;  ///< made when a style first asks
   std::optional<CellTree> cells;
   std::unique_ptr<Tracer> tracer;
-  CpuTracer* cpu = nullptr;  ///< the tracer, if it is that one
+  CpuTracer* cpu = nullptr;        ///< the tracer, if it is that one
+  RasterTracer* raster = nullptr;  ///< or that one
   Refine refine = Refine::kWhereRaysCome;
   bool is_auto = false;  ///< nobody chose the backend
   std::shared_ptr<RasterDevice> device;
@@ -71,7 +72,8 @@ Status Renderer::State::choose_backend() {
   if (is_auto)
     settings.backend = gpu::has_graphics_hardware() ? Backend::kVulkanRaster : Backend::kCpu;
   if (settings.backend != Backend::kVulkanRaster) return Done{};
-  Result<std::shared_ptr<RasterDevice>> opened = open_raster_device({.device = settings.device});
+  Result<std::shared_ptr<RasterDevice>> opened =
+      open_raster_device({.device = settings.device, .shaders = settings.shaders});
   if (opened && !(is_auto && is_software(**opened))) {
     device = *std::move(opened);
     backend_note = describe(*device);
@@ -87,6 +89,7 @@ bool Renderer::State::falls_back(const Error& refusal, const Camera& camera) {
   if (!is_auto || settings.backend != Backend::kVulkanRaster) return false;
   settings.backend = Backend::kCpu;
   backend_note = refusal.message;
+  raster = nullptr;
   tracer.reset();
   device.reset();
   return bool(make_tracer(camera));
@@ -125,6 +128,7 @@ Camera Renderer::camera(const ViewOptions& options) {
 Status Renderer::State::make_tracer(const Camera& camera) {
   tracer.reset();
   cpu = nullptr;
+  raster = nullptr;
   if (settings.backend == Backend::kOracle) {
     tracer = make_oracle_tracer(model, settings.threads);
     return Done{};
@@ -149,10 +153,11 @@ Status Renderer::State::make_tracer(const Camera& camera) {
   times.send = 0;
   if (is_raster) {
     const auto before_sending = Clock::now();
-    Result<std::unique_ptr<RasterTracer>> raster =
+    Result<std::unique_ptr<RasterTracer>> made =
         make_raster_tracer(device, scene, *cells, settings.threads);
-    if (!raster) return raster.error();
-    tracer = *std::move(raster);
+    if (!made) return made.error();
+    raster = made->get();
+    tracer = *std::move(made);
     times.send = milliseconds_since(before_sending);
   } else {
     std::unique_ptr<CpuTracer> made = make_cpu_tracer(scene, *cells, settings.threads);
@@ -225,6 +230,10 @@ const CellTree* Renderer::cells() const {
 
 TraceStats Renderer::trace_stats() const {
   return state_->cpu ? state_->cpu->stats() : TraceStats{};
+}
+
+RasterStats Renderer::raster_stats() const {
+  return state_->raster ? state_->raster->stats() : RasterStats{};
 }
 
 const StageTimes& Renderer::times() const {

@@ -14,6 +14,7 @@
 #include "trace/cpu/cpu.h"
 #include "trace/tracer.h"
 #include "trace/view.h"
+#include "trace/vulkan/raster_settings.h"
 #include "whittle/choices.h"
 
 namespace whittle {
@@ -36,8 +37,9 @@ constexpr int default_antialias(Style style) {
 
 struct RendererSettings {
   Backend backend = Backend::kAuto;
-  std::string device{};         ///< of a vulkan backend: number or part of a name; empty: the best
-  int threads = 0;              ///< 0: all
+  std::string device{};  ///< of a vulkan backend: number or part of a name; empty: the best
+  ShaderCases shaders = RasterSettings{}.shaders;  ///< of vulkan-raster
+  int threads = 0;                                 ///< 0: all
   SubdivideSettings subdivide;  ///< `threads` and `is_small` are set from here and below
   double pixel_threshold = 0;   ///< cells whose edges are all shorter are small; 0: none is
 };
@@ -90,6 +92,8 @@ class Renderer {
   const CellTree* cells() const;
   /// All zero with the oracle.
   TraceStats trace_stats() const;
+  /// Of the last picture; all zero unless vulkan-raster made it.
+  RasterStats raster_stats() const;
   const StageTimes& times() const;
 
  private:

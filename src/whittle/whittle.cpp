@@ -139,6 +139,7 @@ Rendering Solid::render(const RenderOptions& options) const {
   RendererSettings settings;
   settings.backend = value_of(choose(backend_choices(), "backend", options.backend));
   settings.device = options.device;
+  settings.shaders = value_of(choose(shaders_choices(), "kind of shaders", options.shaders));
   settings.threads = options.threads;
   settings.subdivide.memory = options.cell_memory;
   Renderer renderer = value_of(Renderer::make(state_->read.model, settings));

@@ -11,12 +11,6 @@ namespace whittle {
 namespace {
 
 /// What shaders/scene.glsl calls them.
-enum ShaderHalfSpace : uint32_t {
-  kShaderPlane,
-  kShaderSphere,
-  kShaderQuadric,
-  kShaderSmallQuadric
-};
 enum ShaderLeaf : uint32_t { kShaderConjunction, kShaderDisjunction, kShaderTable, kShaderProgram };
 /// And what shaders/resolve.comp calls the steps to an owner.
 enum OwningStep : uint32_t {
@@ -28,10 +22,6 @@ enum OwningStep : uint32_t {
   kElsewhere,
   kNotElsewhere
 };
-
-/// Curved surfaces whose radius is below this share of the region's longest edge get the arithmetic
-/// for small ones, as in docs/numerics.md.
-constexpr double kSmall = 1.0 / 64;
 
 /// Where a cell's words say what its leaf is.
 constexpr uint32_t kRuleWord = 12;
@@ -91,8 +81,9 @@ class Flattener {
       } else if (link.kind() >= CellKind::kConjunction) {
         const auto number = uint32_t(part_.cells.size() / kCellWords);
         part_.at(now.place) = kCellBit | number;
-        if (wanted_.sight) part_.visible.push_back({number, sight == BoxSight::kWide});
         add_cell(now.box, link.kind(), link.leaf());
+        if (wanted_.sight)
+          part_.visible.push_back({number, part_.cases.back(), sight == BoxSight::kWide});
       }
     }
     prune();
@@ -149,6 +140,7 @@ class Flattener {
         for (const Step& step : leaf.steps())
           part_.words.insert(part_.words.end(), {step.literal, step.on_true, step.on_false});
     }
+    part_.cases.push_back(leaf_case(scene_, kind, leaf));
     add_vector(part_.cells, box.lo, doubles_);
     add_vector(part_.cells, box.hi, doubles_);
     part_.cells.insert(part_.cells.end(),
@@ -204,20 +196,14 @@ class Flattener {
 std::vector<uint32_t> flatten_half_spaces(const Scene& scene, bool doubles) {
   std::vector<uint32_t> to;
   to.reserve(scene.half_spaces.size() * kHalfSpaceWords);
-  const double edge = max_component(scene.region.size());
   for (const HalfSpace& h : scene.half_spaces) {
     const size_t first = to.size();
-    // As f is scaled, 2 |c| is the radius, or the least one.
-    const bool small = 2 * std::fabs(h.f.c) < kSmall * edge;
-    const ShaderHalfSpace kind = h.is_plane()                     ? kShaderPlane
-                                 : small                          ? kShaderSmallQuadric
-                                 : h.kind == SurfaceKind::kSphere ? kShaderSphere
-                                                                  : kShaderQuadric;
+    const ShaderSurface kind = shader_surface(scene, h);
     add_vector(to, h.center, doubles);
-    to.insert(to.end(), {kind, 0});
-    if (kind == kShaderPlane) {
+    to.insert(to.end(), {uint32_t(kind), 0});
+    if (kind == ShaderSurface::kPlane) {
       add_vector(to, h.f.b, doubles);
-    } else if (kind == kShaderSphere) {
+    } else if (kind == ShaderSurface::kSphere) {
       add_number(to, h.f.diag.x, doubles);
       add_number(to, h.f.c, doubles);
     } else {
@@ -254,6 +240,7 @@ void append(FlatPart& part, Place place, uint32_t cells, uint32_t words, FlatCel
   for (VisibleCell& visible : part.visible) visible.cell += first_cell;
   whole.at(place) = moved(part.root);
   whole.nodes.insert(whole.nodes.end(), part.nodes.begin(), part.nodes.end());
+  whole.cases.insert(whole.cases.end(), part.cases.begin(), part.cases.end());
   whole.open.insert(whole.open.end(), part.open.begin(), part.open.end());
   whole.cells.insert(whole.cells.end(), part.cells.begin(), part.cells.end());
   whole.words.insert(whole.words.end(), part.words.begin(), part.words.end());

@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "subdivide/cells.h"
+#include "trace/vulkan/leaf_case.h"
 #include "trace/vulkan/sight.h"
 
 namespace whittle {
@@ -46,6 +47,7 @@ struct Place {
 /// One cell to draw.
 struct VisibleCell {
   uint32_t cell;
+  LeafCase leaf_case;  ///< which shader is made for it
   /// It reaches to the eye's plane or far beyond the picture's sides, so its corners have no good
   /// place in the picture: every pixel must look.
   bool is_wide;
@@ -61,6 +63,8 @@ struct FlatCells {
   /// operand << 3, owner); and steps of programs (test, on true, on false).
   std::vector<uint32_t> words;
 
+  /// What follows only the host has. Of each cell:
+  std::vector<LeafCase> cases;
   std::vector<FlatNode> nodes;
   std::vector<const Cell*> open;
   uint32_t root = kNoChild;

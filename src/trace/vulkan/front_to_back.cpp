@@ -19,7 +19,8 @@ void order_front_to_back(const FlatCells& flat, const Box& region, const Sight& 
     const BoxSight seen = sight.look(now.box);
     if (seen == BoxSight::kNone) continue;
     if (is_cell(now.what)) {
-      cells.push_back({now.what & ~kCellBit, seen == BoxSight::kWide});
+      const uint32_t cell = now.what & ~kCellBit;
+      cells.push_back({cell, flat.cases[cell], seen == BoxSight::kWide});
       continue;
     }
     if (is_open(now.what)) {

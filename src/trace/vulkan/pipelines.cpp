@@ -1,6 +1,7 @@
 #include "trace/vulkan/pipelines.h"
 
 #include <cstddef>
+#include <utility>
 
 #include "gpu/shader.h"
 #include "trace/vulkan/shaders.h"
@@ -52,9 +53,59 @@ VkPipelineShaderStageCreateInfo stage_of(VkShaderStageFlagBits stage, VkShaderMo
   return info;
 }
 
-Status make_draw(const Device& device, VkShaderModule cells, VkShaderModule visible, Pipelines& p) {
-  const VkPipelineShaderStageCreateInfo stages[] = {
-      stage_of(VK_SHADER_STAGE_VERTEX_BIT, cells), stage_of(VK_SHADER_STAGE_FRAGMENT_BIT, visible)};
+Status make_resolve(const Device& device, VkShaderModule resolve, Pipelines& p) {
+  VkComputePipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+  info.stage = stage_of(VK_SHADER_STAGE_COMPUTE_BIT, resolve);
+  info.layout = p.layout.get();
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  const VkResult result =
+      vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
+  if (result != VK_SUCCESS) return device.error(result, "compile shaders");
+  p.resolve = {device.handle(), pipeline, vkDestroyPipeline};
+  return Done{};
+}
+
+}  // namespace
+
+VkDescriptorType descriptor_type(uint32_t binding, bool storage) {
+  switch (binding) {
+    case kViewBinding:
+      return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    case kSeenBinding:
+      return VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+    case kHitsBinding:
+      return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    default:
+      return storage ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+  }
+}
+
+Result<Pipelines> make_pipelines(const Device& device, bool doubles, bool storage) {
+  Pipelines p;
+  if (Status made = make_layouts(device, storage, p); !made) return made.error();
+  const ShaderSet code = shaders(doubles, storage);
+  Owned<VkShaderModule> resolve;
+  for (auto [words, to] : {std::pair(code.cells, &p.cells), std::pair(code.visible, &p.visible),
+                           std::pair(code.resolve, &resolve)}) {
+    Result<Owned<VkShaderModule>> made = gpu::make_shader(device, words);
+    if (!made) return made.error();
+    *to = *std::move(made);
+  }
+  if (Status made = make_resolve(device, resolve.get(), p); !made) return made.error();
+  return p;
+}
+
+Status add_draw(const Device& device, LeafCase leaf, Pipelines& p) {
+  // The constants of shaders/cases.glsl.
+  const uint32_t constants[] = {uint32_t(formula_case(leaf)), uint32_t(surface_case(leaf))};
+  const VkSpecializationMapEntry entries[] = {{0, 0, sizeof(uint32_t)},
+                                              {1, sizeof(uint32_t), sizeof(uint32_t)}};
+  const VkSpecializationInfo special{2, entries, sizeof(constants), constants};
+  VkPipelineShaderStageCreateInfo stages[] = {
+      stage_of(VK_SHADER_STAGE_VERTEX_BIT, p.cells.get()),
+      stage_of(VK_SHADER_STAGE_FRAGMENT_BIT, p.visible.get())};
+  stages[1].pSpecializationInfo = &special;
   const VkVertexInputBindingDescription instances{0, sizeof(Instance),
                                                   VK_VERTEX_INPUT_RATE_INSTANCE};
   const VkVertexInputAttributeDescription attributes[] = {
@@ -118,53 +169,8 @@ Status make_draw(const Device& device, VkShaderModule cells, VkShaderModule visi
   const VkResult result =
       vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
   if (result != VK_SUCCESS) return device.error(result, "compile shaders");
-  p.draw = {device.handle(), pipeline, vkDestroyPipeline};
+  p.draw[leaf] = {device.handle(), pipeline, vkDestroyPipeline};
   return Done{};
-}
-
-Status make_resolve(const Device& device, VkShaderModule resolve, Pipelines& p) {
-  VkComputePipelineCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-  info.stage = stage_of(VK_SHADER_STAGE_COMPUTE_BIT, resolve);
-  info.layout = p.layout.get();
-  VkPipeline pipeline = VK_NULL_HANDLE;
-  const VkResult result =
-      vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
-  if (result != VK_SUCCESS) return device.error(result, "compile shaders");
-  p.resolve = {device.handle(), pipeline, vkDestroyPipeline};
-  return Done{};
-}
-
-}  // namespace
-
-VkDescriptorType descriptor_type(uint32_t binding, bool storage) {
-  switch (binding) {
-    case kViewBinding:
-      return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    case kSeenBinding:
-      return VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-    case kHitsBinding:
-      return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    default:
-      return storage ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-  }
-}
-
-Result<Pipelines> make_pipelines(const Device& device, bool doubles, bool storage) {
-  Pipelines p;
-  if (Status made = make_layouts(device, storage, p); !made) return made.error();
-  const ShaderSet code = shaders(doubles, storage);
-  std::array<Owned<VkShaderModule>, 3> modules;
-  const std::span<const uint32_t> words[] = {code.cells, code.visible, code.resolve};
-  for (size_t i = 0; i < modules.size(); ++i) {
-    Result<Owned<VkShaderModule>> made = gpu::make_shader(device, words[i]);
-    if (!made) return made.error();
-    modules[i] = *std::move(made);
-  }
-  if (Status made = make_draw(device, modules[0].get(), modules[1].get(), p); !made)
-    return made.error();
-  if (Status made = make_resolve(device, modules[2].get(), p); !made) return made.error();
-  return p;
 }
 
 }  // namespace whittle

@@ -5,6 +5,7 @@
 
 #include "gpu/memory.h"
 #include "gpu/owned.h"
+#include "trace/vulkan/leaf_case.h"
 
 namespace whittle {
 
@@ -39,10 +40,14 @@ inline constexpr uint32_t kBoxIndices = 18, kSquareIndices = 6;
 struct Pipelines {
   gpu::Owned<VkDescriptorSetLayout> set_layout;
   gpu::Owned<VkPipelineLayout> layout;
-  gpu::Owned<VkPipeline> draw;
+  gpu::Owned<VkShaderModule> cells, visible;
+  std::array<gpu::Owned<VkPipeline>, kLeafCases> draw;  ///< those that were needed so far
   gpu::Owned<VkPipeline> resolve;
 };
+/// All but the drawing ones.
 Result<Pipelines> make_pipelines(const gpu::Device& device, bool doubles, bool storage);
+/// Adds the one that draws such leaves.
+Status add_draw(const gpu::Device& device, LeafCase leaf, Pipelines& pipelines);
 
 /// What kind of descriptor a binding has.
 VkDescriptorType descriptor_type(uint32_t binding, bool storage);

@@ -15,33 +15,9 @@
 #include "base/result.h"
 #include "subdivide/cells.h"
 #include "trace/tracer.h"
+#include "trace/vulkan/raster_settings.h"
 
 namespace whittle {
-
-/// The numbers that shaders compute with.
-enum class ShaderNumbers { kAuto, kDouble, kFloat };
-
-/// How shaders read the scene. Storage buffers are slow on Mesa's software device, texel buffers
-/// are small on others.
-enum class ShaderReads { kAuto, kTexels, kStorage };
-
-struct RasterSettings {
-  std::string device;  ///< number or part of a name; empty: the best
-  ShaderNumbers numbers = ShaderNumbers::kAuto;
-  ShaderReads reads = ShaderReads::kAuto;
-  bool validate = false;  ///< use Vulkan's validation layer, and keep what it says
-};
-
-/// What the last render() did.
-struct RasterStats {
-  uint64_t cells = 0;     ///< on the device
-  uint64_t drawn = 0;     ///< of them, those that the camera may see
-  uint64_t batches = 0;   ///< in which they came, if they were refined while others were drawn
-  double first_ms = 0;    ///< then, from the beginning until the first of them were drawn
-  double order_ms = 0;    ///< on the host: cells sorted front to back
-  double draw_ms = 0;     ///< on the device, 0 if it cannot tell: cells to pixels
-  double resolve_ms = 0;  ///< pixels to facts
-};
 
 class RasterTracer : public Tracer {
  public:

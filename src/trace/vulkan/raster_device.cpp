@@ -32,6 +32,7 @@ Status RasterDevice::choose(const RasterSettings& settings) {
                                                       : settings.numbers == ShaderNumbers::kDouble;
   if (doubles_ && !info.float64)
     return Error{ErrorKind::kMachine, info.name + " cannot compute in double precision"};
+  specialised_ = settings.shaders == ShaderCases::kSpecialised;
   // A software device that has room for many texels is Mesa's.
   constexpr uint32_t kManyTexels = 1u << 27;
   const bool texels_are_faster =
@@ -44,6 +45,10 @@ Status RasterDevice::choose(const RasterSettings& settings) {
       std::min({kMostTileSide, limits.maxImageDimension2D, limits.maxViewportDimensions[0],
                 limits.maxFramebufferWidth, std::bit_floor(uint32_t(std::sqrt(double(pixels))))});
   return Done{};
+}
+
+Status RasterDevice::need(LeafCase shader) {
+  return pipelines_.draw[shader] ? Status(Done{}) : add_draw(*gpu_, shader, pipelines_);
 }
 
 double RasterDevice::margin(const Camera& camera) const {

@@ -13,6 +13,10 @@ class RasterDevice {
 
   const gpu::Device& gpu() const { return *gpu_; }
   const Pipelines& pipelines() const { return pipelines_; }
+  /// The leaves that the shader for such a leaf takes.
+  LeafCase shader_for(LeafCase leaf) const { return specialised_ ? leaf : kAnyLeaf; }
+  /// Compiles it, unless that is done.
+  Status need(LeafCase shader);
   bool doubles() const { return doubles_; }  ///< shaders compute in double precision
   bool storage() const { return storage_; }  ///< and read storage buffers, not texel buffers
   uint32_t tile_side() const { return tile_side_; }  ///< pixels that it draws at a time, at most
@@ -25,7 +29,7 @@ class RasterDevice {
 
   std::unique_ptr<gpu::Device> gpu_;  // outlives the pipelines
   Pipelines pipelines_;
-  bool doubles_ = false, storage_ = false;
+  bool doubles_ = false, storage_ = false, specialised_ = false;
   uint32_t tile_side_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
 namespace whittle {
 namespace {
@@ -41,7 +42,7 @@ constexpr gpu::ImageUse kCopied{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELIN
 
 }  // namespace
 
-Result<TileDrawer> TileDrawer::make(const RasterDevice& device, gpu::Commands& commands,
+Result<TileDrawer> TileDrawer::make(RasterDevice& device, gpu::Commands& commands,
                                     const Bindings& bindings) {
   TileDrawer made;
   made.device_ = &device;
@@ -119,7 +120,7 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
     }
   }
   if (Status done = make_instances(cells, part.rank); !done) return done;
-  if (part.is_dry) instance_count_ = wide_count_ = 0;
+  if (part.is_dry) draws_.clear();
   if (!part.is_last && seen_copy_.bytes() == 0) {
     const VkDeviceSize pixels = VkDeviceSize(width_) * VkDeviceSize(height_);
     if (Status done = make_buffer(seen_copy_, pixels * sizeof(uint32_t),
@@ -128,6 +129,7 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
       return done;
   }
 
+  stats.draws += uint32_t(draws_.size());
   Result<VkCommandBuffer> recording = commands_->begin();
   if (!recording) return recording.error();
   commands_->stamp();
@@ -145,25 +147,50 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
   return Done{};
 }
 
-/// The wide ones first.
+/// Sorted by case, and front to back within each.
 Status TileDrawer::make_instances(std::span<const VisibleCell> cells, uint32_t rank) {
-  const VkDeviceSize bytes = (cells.size() + 1) * sizeof(Instance);
-  if (instances_.bytes() < bytes) {
-    // Half as much again as it has.
-    if (Status done = make_buffer(instances_, std::max(bytes, instances_.bytes() * 3 / 2),
-                                  VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, Placement::kUpload);
-        !done)
-      return done;
+  if (Status done = reserve(instances_, (cells.size() + 1) * sizeof(Instance),
+                            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+      !done)
+    return done;
+  std::array<uint32_t, 2 * kLeafCases> next{};
+  const auto draw_of = [&](const VisibleCell& cell) {
+    return 2 * device_->shader_for(cell.leaf_case) + (cell.is_wide ? 0 : 1);
+  };
+  for (const VisibleCell& cell : cells) ++next[draw_of(cell)];
+  draws_.clear();
+  uint32_t first = 0;
+  for (uint32_t i = 0; i < next.size(); ++i) {
+    const uint32_t count = std::exchange(next[i], first);
+    if (count == 0) continue;
+    draws_.push_back({LeafCase(i / 2), i % 2 == 0, first, count});
+    if (Status done = device_->need(LeafCase(i / 2)); !done) return done;
+    first += count;
   }
-  instance_count_ = uint32_t(cells.size());
-  wide_count_ = uint32_t(std::ranges::count_if(cells, &VisibleCell::is_wide));
   // Powers of two: every depth is exact.
   constexpr double kStep = 1.0 / (kMostRanks + 1);
   auto* const to = static_cast<Instance*>(instances_.mapped());
-  uint32_t next_wide = 0, next_box = wide_count_;
   for (const VisibleCell& cell : cells)
-    to[cell.is_wide ? next_wide++ : next_box++] = {cell.cell, float(kStep * ++rank)};
+    to[next[draw_of(cell)]++] = {cell.cell, float(kStep * ++rank)};
+
+  if (Status done =
+          reserve(commands_of_draws_, (draws_.size() + 1) * sizeof(VkDrawIndexedIndirectCommand),
+                  VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+      !done)
+    return done;
+  auto* const commands = static_cast<VkDrawIndexedIndirectCommand*>(commands_of_draws_.mapped());
+  for (size_t i = 0; i < draws_.size(); ++i) {
+    const Draw& draw = draws_[i];
+    commands[i] = {draw.is_wide ? kSquareIndices : kBoxIndices, draw.count,
+                   draw.is_wide ? kBoxIndices : 0, 0, 0};
+  }
   return Done{};
+}
+
+/// Makes room in a buffer, half as much again as it has.
+Status TileDrawer::reserve(Buffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage) {
+  if (buffer.bytes() >= bytes) return Done{};
+  return make_buffer(buffer, std::max(bytes, buffer.bytes() * 3 / 2), usage, Placement::kUpload);
 }
 
 void TileDrawer::record_drawing(VkCommandBuffer commands, bool has_asked, const DrawPart& part) {
@@ -210,15 +237,18 @@ void TileDrawer::record_drawing(VkCommandBuffer commands, bool has_asked, const 
   const VkRect2D scissor{{0, 0}, extent};
   vkCmdSetViewport(commands, 0, 1, &viewport);
   vkCmdSetScissor(commands, 0, 1, &scissor);
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, device_->pipelines().draw.get());
   bindings_->use(commands, VK_PIPELINE_BIND_POINT_GRAPHICS);
-  const VkBuffer instances = instances_.handle();
-  const VkDeviceSize from_start = 0;
-  vkCmdBindVertexBuffers(commands, 0, 1, &instances, &from_start);
   vkCmdBindIndexBuffer(commands, indices_.handle(), 0, VK_INDEX_TYPE_UINT16);
-  const uint32_t boxes = instance_count_ - wide_count_;
-  if (wide_count_ > 0) vkCmdDrawIndexed(commands, kSquareIndices, wide_count_, kBoxIndices, 0, 0);
-  if (boxes > 0) vkCmdDrawIndexed(commands, kBoxIndices, boxes, 0, 0, wide_count_);
+  const VkBuffer instances = instances_.handle();
+  for (size_t i = 0; i < draws_.size(); ++i) {
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                      device_->pipelines().draw[draws_[i].shader].get());
+    // An offset, and not a first instance in the command: that would be one more feature to need.
+    const VkDeviceSize first = draws_[i].first * sizeof(Instance);
+    vkCmdBindVertexBuffers(commands, 0, 1, &instances, &first);
+    vkCmdDrawIndexedIndirect(commands, commands_of_draws_.handle(),
+                             i * sizeof(VkDrawIndexedIndirectCommand), 1, 0);
+  }
   vkCmdEndRendering(commands);
 }
 

@@ -26,7 +26,7 @@ inline constexpr uint32_t kMostRanks = (1u << 24) - 1;
 class TileDrawer {
  public:
   /// The arguments must outlive it; the scene is bound.
-  static Result<TileDrawer> make(const RasterDevice& device, gpu::Commands& commands,
+  static Result<TileDrawer> make(RasterDevice& device, gpu::Commands& commands,
                                  const Bindings& bindings);
 
   /// Facts for all pixels of a tile, or for the places of a layer; then they are in hits().
@@ -43,6 +43,13 @@ class TileDrawer {
   }
 
  private:
+  /// Cells of one case, which are all drawn as boxes or all as squares.
+  struct Draw {
+    LeafCase shader = kAnyLeaf;
+    bool is_wide = false;
+    uint32_t first = 0, count = 0;  ///< instances
+  };
+
   /// Images and buffers for a tile of that size.
   Status resize(int width, int height);
   Status make_instances(std::span<const VisibleCell> cells, uint32_t rank);
@@ -53,18 +60,19 @@ class TileDrawer {
   const gpu::Device& gpu() const { return device_->gpu(); }
   Status make_buffer(gpu::Buffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage,
                      gpu::Placement placement);
+  Status reserve(gpu::Buffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage);
 
-  const RasterDevice* device_ = nullptr;
+  RasterDevice* device_ = nullptr;
   gpu::Commands* commands_ = nullptr;
   const Bindings* bindings_ = nullptr;
-  gpu::Buffer view_, indices_, instances_, hits_;
+  gpu::Buffer view_, indices_, instances_, commands_of_draws_, hits_;
   ReadBuffer positions_;  ///< where in the picture each pixel looks, if there is a layer
   gpu::Buffer asked_;     ///< and depths that shut the pixels of which nothing is asked
   gpu::Image seen_, depth_;
   gpu::ImageUse seen_use_{};  ///< what the last commands did with it
   gpu::Buffer seen_copy_;     ///< made when it is first needed
   int width_ = 0, height_ = 0;
-  uint32_t instance_count_ = 0, wide_count_ = 0;
+  std::vector<Draw> draws_;
 };
 
 }  // namespace whittle

@@ -3,6 +3,7 @@
 // so that no rounding of the rasteriser loses a pixel. The fragments cut exactly.
 #extension GL_GOOGLE_include_directive : require
 #include "numbers.glsl"
+#include "cases.glsl"
 #include "scene.glsl"
 #include "view.glsl"
 

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "numbers.glsl"
+#include "cases.glsl"
 #include "scene.glsl"
 #include "view.glsl"
 

@@ -36,7 +36,9 @@ struct Leaf {
 
 Leaf cell_leaf(uint cell) {
   const uvec4 w = cell_words(cell * 4 + 3);
-  return Leaf(w.y & 3, w.y >> 2, w.x, w.zw);
+  Leaf leaf = Leaf(w.y & 3, w.y >> 2, w.x, w.zw);
+  if (kFormulas >= kConjunctions) leaf.kind = kFormulas - kConjunctions + kConjunction;
+  return leaf;
 }
 
 Vec3 half_space_center(uint i) {

@@ -9,9 +9,14 @@
 AlongRay along_ray(uint half_space, Ray ray) {
   const Vec3 center = half_space_center(half_space);
   const Vec3 o = Vec3(ray.origin.x - center.x, ray.origin.y - center.y, ray.origin.z - center.z);
-  const uint kind = half_space_kind(half_space);
-  const Quadric f = half_space_quadric(half_space, kind);
-  if (kind == kPlane) return plane_along_ray(f.b, o, ray.direction);
+  const uint kind = kSurfaces == kPlanes ? kPlane : half_space_kind(half_space);
+  if (kSurfaces == kPlanesAndSpheres && kind != kPlane) {
+    const Quadric f = half_space_quadric(half_space, kSphere);
+    return sphere_along_ray(f.diag.x, f.c, o, ray.direction);
+  }
+  const Quadric f =
+      half_space_quadric(half_space, kSurfaces == kAnySurfaces ? kind : kPlane);
+  if (kind == kPlane || kSurfaces != kAnySurfaces) return plane_along_ray(f.b, o, ray.direction);
   if (kind == kSphere) return sphere_along_ray(f.diag.x, f.c, o, ray.direction);
   if (kind == kSmallQuadric) return small_quadric_along_ray(f, o, ray.direction);
   return quadric_along_ray(f, o, ray.direction);

@@ -2,6 +2,7 @@
 // Is a change of the solid seen in this cell, at this pixel? Then the pixel gets the cell's number.
 #extension GL_GOOGLE_include_directive : require
 #include "numbers.glsl"
+#include "cases.glsl"
 #include "scene.glsl"
 #include "view.glsl"
 #define WHITTLE_BEFORE_CHANGE
@@ -11,8 +12,62 @@
 layout(location = 0) flat in uint cell;
 layout(location = 0) out uint seen;
 
-// Most rays are settled by the signs at the ends of their way alone.
-bool is_seen() {
+// The crossings of one literal along the way.
+struct Literal {
+  bool is_true;        // at its start
+  bool changes;        // and not so at its end
+  bool bends;          // or the other between
+  Real first, second;  // where; kFar if there is none
+};
+
+Literal literal_along(uint i, bool complemented) {
+  const AlongRay along = along_ray(literal_word(i) >> 1, ray);
+  const Signs signs = signs_between(along, way_start, way_end, at_eye);
+  Literal l;
+  l.is_true = signs.inside != complemented;
+  l.changes = signs.inside != signs.at_end;
+  l.bends = signs.bends;
+  l.first = select(l.changes || l.bends, root_in_way(along, signs.inside), kFar);
+  l.second = select(l.bends, root_in_way(along, !signs.inside), kFar);
+  return l;
+}
+
+// A surface alone is seen from either side, so its complement is the same. Two crossings that
+// happen together are none.
+bool is_seen_alone() {
+  const Literal l = literal_along(0, false);
+  return l.changes || (l.bends && pmax(l.first, l.second) > pmin(l.first, l.second) + view_together());
+}
+
+// The four cases of section 3.3.4 of the paper, by which of the two is complemented. They differ in
+// what holds at the start; from there on the crossings are passed one after another, those together
+// that happen together.
+bool is_seen_pair() {
+  const Literal a = literal_along(0, kFirstComplemented);
+  const Literal b = literal_along(1, kSecondComplemented);
+  const bool before = a.is_true && b.is_true;
+  // What is false all along settles it.
+  if ((!a.is_true && !a.changes && !a.bends) || (!b.is_true && !b.changes && !b.bends))
+    return false;
+  if (before != ((a.is_true != a.changes) && (b.is_true != b.changes))) return true;
+  Real until = K(0) - kFar;
+  // No more than four crossings.
+  for (uint round = 0; round < 4; ++round) {
+    Real next = select(a.first > until, a.first, kFar);
+    next = pmin(next, select(a.second > until, a.second, kFar));
+    next = pmin(next, select(b.first > until, b.first, kFar));
+    next = pmin(next, select(b.second > until, b.second, kFar));
+    if (next >= kFar) return false;
+    until = next + view_together();
+    const bool a_is = a.is_true != ((a.first <= until) != (a.second <= until));
+    const bool b_is = b.is_true != ((b.first <= until) != (b.second <= until));
+    if ((a_is && b_is) != before) return true;
+  }
+  return false;
+}
+
+// Any leaf. Most rays are settled by the signs at the ends of their way alone.
+bool is_seen_any() {
   const bool conjunction = leaf.kind == kConjunction, disjunction = leaf.kind == kDisjunction;
   uint crossings = 0, bits = 0, change_bits = 0;
   uint changes[kMostLiterals / 32];
@@ -46,6 +101,12 @@ bool is_seen() {
   if (crossings == 1) return false;
   Change change;
   return find_change(change);
+}
+
+bool is_seen() {
+  if (kFormulas == kOneLiteral) return is_seen_alone();
+  if (kIsPair) return is_seen_pair();
+  return is_seen_any();
 }
 
 void main() {

@@ -1,0 +1,39 @@
+// What can be chosen of the vulkan-raster backend, and what it says of its work.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace whittle {
+
+/// The numbers that shaders compute with.
+enum class ShaderNumbers { kAuto, kDouble, kFloat };
+
+/// How shaders read the scene. Storage buffers are slow on Mesa's software device, texel buffers
+/// are small on others.
+enum class ShaderReads { kAuto, kTexels, kStorage };
+
+/// Which shaders solve the cells: one for each case of leaves, as in the paper, or one for all.
+enum class ShaderCases { kSpecialised, kUnified };
+
+struct RasterSettings {
+  std::string device;  ///< number or part of a name; empty: the best
+  ShaderNumbers numbers = ShaderNumbers::kAuto;
+  ShaderReads reads = ShaderReads::kAuto;
+  ShaderCases shaders = ShaderCases::kSpecialised;
+  bool validate = false;  ///< use Vulkan's validation layer, and keep what it says
+};
+
+/// What the last render() did.
+struct RasterStats {
+  uint64_t cells = 0;     ///< on the device
+  uint64_t drawn = 0;     ///< of them, those that the camera may see
+  uint32_t draws = 0;     ///< calls that did it
+  uint64_t batches = 0;   ///< in which they came, if they were refined while others were drawn
+  double first_ms = 0;    ///< then, from the beginning until the first of them were drawn
+  double order_ms = 0;    ///< on the host: cells sorted front to back
+  double draw_ms = 0;     ///< on the device, 0 if it cannot tell: cells to pixels
+  double resolve_ms = 0;  ///< pixels to facts
+};
+
+}  // namespace whittle
