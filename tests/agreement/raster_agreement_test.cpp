@@ -26,6 +26,7 @@ class RasterAgreement : public testing::Test {
   static void SetUpTestSuite() {
     RasterSettings settings;
     settings.validate = true;
+    settings.first_batch_ms = 0;  // as many batches as there can be
     Result<std::shared_ptr<RasterDevice>> opened = open_raster_device(settings);
     ASSERT_TRUE(opened) << opened.error().message;
     device = *std::move(opened);
@@ -43,7 +44,8 @@ class RasterAgreement : public testing::Test {
     const auto oracle = make_oracle_tracer(model);
     AgreementReport sum;
     for (const uint32_t k : leaf_sizes) {
-      RasterSubject subject(device, model, leaf_size(k));
+      constexpr uint32_t kEager = 4;
+      RasterSubject subject(device, model, leaf_size(k), k == kEager);
       for (const Camera& camera : cameras_for(model, width, height)) {
         const AgreementReport report = find_differences(model, *subject.tracer, *oracle, camera);
         EXPECT_EQ(report.unexplained, 0) << "leaf size " << k << '\n' << report.first_difference;

@@ -4,8 +4,8 @@
 
 namespace whittle {
 
-CellStream::CellStream(CellSupply& supply, const Sight& sight)
-    : thread_([this, &supply, &sight] { run(supply, sight); }) {}
+CellStream::CellStream(CellSupply& supply, const Sight& sight, double first_batch_ms)
+    : thread_([this, &supply, &sight, first_batch_ms] { run(supply, sight, first_batch_ms); }) {}
 
 CellStream::~CellStream() {
   {
@@ -16,7 +16,7 @@ CellStream::~CellStream() {
   thread_.join();
 }
 
-void CellStream::run(CellSupply& supply, const Sight& sight) {
+void CellStream::run(CellSupply& supply, const Sight& sight, double first_batch_ms) {
   Status status = Done{};
   std::exception_ptr thrown;
   try {
@@ -32,7 +32,7 @@ void CellStream::run(CellSupply& supply, const Sight& sight) {
       changed_.notify_all();
       return true;
     };
-    status = supply.stream(sight, solved, take);
+    status = supply.stream(sight, first_batch_ms, solved, take);
   } catch (...) {
     thrown = std::current_exception();
   }

@@ -16,7 +16,7 @@ namespace whittle {
 class CellStream {
  public:
   /// Until it ends, nobody else may use the supply. The arguments must outlive it.
-  CellStream(CellSupply& supply, const Sight& sight);
+  CellStream(CellSupply& supply, const Sight& sight, double first_batch_ms);
   ~CellStream();
   CellStream(const CellStream&) = delete;
   CellStream& operator=(const CellStream&) = delete;
@@ -27,7 +27,7 @@ class CellStream {
   void hide(CellSupply::Solved solved);
 
  private:
-  void run(CellSupply& supply, const Sight& sight);
+  void run(CellSupply& supply, const Sight& sight, double first_batch_ms);
 
   std::mutex mutex_;
   std::condition_variable changed_;

@@ -1,6 +1,6 @@
 #include "trace/vulkan/cell_supply.h"
 
-#include <cstdint>
+#include <chrono>
 #include <utility>
 
 namespace whittle {
@@ -8,8 +8,14 @@ namespace {
 
 /// Subtrees begin so many splits below the region, or where refining has come to before.
 constexpr uint32_t kTopSplits = 8;
-/// And so many make a batch of a stream.
-constexpr size_t kBatchJobs = 16;
+/// So many of them are refined side by side: enough for all threads.
+constexpr size_t kJobsAtOnce = 16;
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 
 }  // namespace
 
@@ -31,7 +37,8 @@ Result<CellBatch> CellSupply::at_once(const Sight* sight) {
     all = std::move(batch);
     return true;
   };
-  const Status done = deliver(sight, SIZE_MAX, [] { return nullptr; }, take);
+  const Status done = deliver(
+      sight, kInfinity, [] { return nullptr; }, take);
   if (!done) return done.error();
   return all;
 }
@@ -40,22 +47,26 @@ Result<CellBatch> CellSupply::refined(const std::vector<OpenCellInSight>& open,
                                       const Sight& sight) {
   std::vector<Job> jobs;
   for (const OpenCellInSight& cell : open) jobs.push_back({cell.cell, cell.box, cell.place, 0});
-  return run(jobs, {&sight, nullptr});
+  CellBatch batch;
+  if (Status done = run(jobs, {&sight, nullptr}, batch); !done) return done.error();
+  return batch;
 }
 
-Status CellSupply::stream(const Sight& sight, const std::function<Solved()>& solved,
-                          const Take& take) {
+Status CellSupply::stream(const Sight& sight, double first_batch_ms,
+                          const std::function<Solved()>& solved, const Take& take) {
   refine_levels(tree_, workers_);
-  return deliver(&sight, kBatchJobs, solved, take);
+  return deliver(&sight, first_batch_ms, solved, take);
 }
 
-Status CellSupply::deliver(const Sight* sight, size_t most_jobs,
+Status CellSupply::deliver(const Sight* sight, double milliseconds,
                            const std::function<Solved()>& solved, const Take& take) {
   std::vector<Job> items, jobs;
   if (tree_.root != nullptr) items.push_back({tree_.root, tree_.region, {}, 0});
+  CellBatch batch;
+  Clock::time_point start = Clock::now();
   while (!items.empty()) {
     jobs.clear();
-    while (!items.empty() && jobs.size() < most_jobs) {
+    while (!items.empty() && (sight == nullptr || jobs.size() < kJobsAtOnce)) {
       const Job now = items.back();
       items.pop_back();
       const CellLink link = now.cell->link();
@@ -76,16 +87,18 @@ Status CellSupply::deliver(const Sight* sight, size_t most_jobs,
       }
     }
     const Solved hides = solved();
-    Result<CellBatch> batch = run(jobs, {sight, hides.get()});
-    if (!batch) return batch.error();
-    batch->is_last = items.empty();
-    if (batch->cells.empty() && !batch->is_last) continue;
-    if (!take(*std::move(batch))) break;
+    if (Status done = run(jobs, {sight, hides.get()}, batch); !done) return done;
+    if (!items.empty() && (batch.cells.empty() || milliseconds_since(start) < milliseconds))
+      continue;
+    batch.is_last = items.empty();
+    if (!take(std::exchange(batch, {}))) return Done{};
+    milliseconds *= 2;
+    start = Clock::now();
   }
   return Done{};
 }
 
-Result<CellBatch> CellSupply::run(const std::vector<Job>& jobs, const Wanted& wanted) {
+Status CellSupply::run(const std::vector<Job>& jobs, const Wanted& wanted, CellBatch& batch) {
   std::vector<FlatPart> parts(jobs.size());
   std::vector<Status> done(jobs.size(), Status(Done{}));
   workers_.for_parts(jobs.size(), 1, [&](size_t first, size_t last, size_t worker) {
@@ -93,17 +106,18 @@ Result<CellBatch> CellSupply::run(const std::vector<Job>& jobs, const Wanted& wa
     for (size_t i = first; i < last; ++i)
       done[i] = flatten(scene_, *jobs[i].cell, jobs[i].box, wanted, refiner, doubles_, parts[i]);
   });
-  CellBatch batch;
   for (size_t i = 0; i < jobs.size(); ++i) {
-    if (!done[i]) return done[i].error();
+    if (!done[i]) return done[i];
     append(parts[i], jobs[i].place, cell_count_, word_count_, flat_);
     batch.visible.insert(batch.visible.end(), parts[i].visible.begin(), parts[i].visible.end());
   }
-  batch.cells = std::exchange(flat_.cells, {});
-  batch.words = std::exchange(flat_.words, {});
-  cell_count_ += uint32_t(batch.cells.size() / kCellWords);
-  word_count_ += uint32_t(batch.words.size());
-  return batch;
+  cell_count_ += uint32_t(flat_.cells.size() / kCellWords);
+  word_count_ += uint32_t(flat_.words.size());
+  batch.cells.insert(batch.cells.end(), flat_.cells.begin(), flat_.cells.end());
+  batch.words.insert(batch.words.end(), flat_.words.begin(), flat_.words.end());
+  flat_.cells.clear();
+  flat_.words.clear();
+  return Done{};
 }
 
 }  // namespace whittle

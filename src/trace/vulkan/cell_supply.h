@@ -31,7 +31,8 @@ class CellSupply {
   /// Nothing of it has been looked at, and there is something to be refined.
   bool is_open() const;
 
-  /// All that the tile may see, or everything if there is none; in no order. Nothing has come before.
+  /// All that the tile may see, or everything if there is none; in no order. Nothing has come
+  /// before.
   Result<CellBatch> at_once(const Sight* sight);
   /// What of these cells the tile may see.
   Result<CellBatch> refined(const std::vector<OpenCellInSight>& open, const Sight& sight);
@@ -41,10 +42,11 @@ class CellSupply {
   /// Takes a batch; false if no more are wanted.
   using Take = std::function<bool(CellBatch)>;
   /// What the tile may see of a tree that is_open(), front to back in batches: no ray meets a cell
-  /// of a later batch before one of an earlier. `solved` is asked before each batch; null or what it
-  /// hides, which stays open. The last batch says so, and may be empty. If `take` ends it early, no
-  /// cells are of use any more.
-  Status stream(const Sight& sight, const std::function<Solved()>& solved, const Take& take);
+  /// of a later batch before one of an earlier. `first_batch_ms`: as in RasterSettings. `solved` is
+  /// asked now and then for what has been drawn, or null; what that hides stays open. The last
+  /// batch says so, and may be empty. If `take` ends it early, no cells are of use any more.
+  Status stream(const Sight& sight, double first_batch_ms, const std::function<Solved()>& solved,
+                const Take& take);
 
  private:
   struct Job {
@@ -53,10 +55,11 @@ class CellSupply {
     Place place;
     uint32_t depth;
   };
-  Status deliver(const Sight* sight, size_t most_jobs, const std::function<Solved()>& solved,
+  /// A batch ends when it has taken so long, or with everything.
+  Status deliver(const Sight* sight, double milliseconds, const std::function<Solved()>& solved,
                  const Take& take);
   /// Flattens the jobs side by side, and puts what they give into its places.
-  Result<CellBatch> run(const std::vector<Job>& jobs, const Wanted& wanted);
+  Status run(const std::vector<Job>& jobs, const Wanted& wanted, CellBatch& batch);
 
   const Scene& scene_;
   const CellTree tree_;

@@ -27,9 +27,15 @@ inline constexpr uint32_t kMostLiterals = 1024;
 inline constexpr uint32_t kCellBit = 1u << 31;  ///< a cell on the device
 inline constexpr uint32_t kOpenBit = 1u << 30;  ///< what has not been looked at: open cells
 inline constexpr uint32_t kNoChild = UINT32_MAX;
-constexpr bool is_cell(uint32_t what) { return what != kNoChild && (what & kCellBit) != 0; }
-constexpr bool is_open(uint32_t what) { return (what & (kCellBit | kOpenBit)) == kOpenBit; }
-constexpr bool is_node(uint32_t what) { return (what & (kCellBit | kOpenBit)) == 0; }
+constexpr bool is_cell(uint32_t what) {
+  return what != kNoChild && (what & kCellBit) != 0;
+}
+constexpr bool is_open(uint32_t what) {
+  return (what & (kCellBit | kOpenBit)) == kOpenBit;
+}
+constexpr bool is_node(uint32_t what) {
+  return (what & (kCellBit | kOpenBit)) == 0;
+}
 
 /// One split on the host's way through the cells, front to back.
 struct FlatNode {

@@ -146,7 +146,7 @@ class RasterTracerImpl final : public RasterTracer {
 
   /// The first picture: cells are refined while others are drawn.
   Status draw_stream(const Sight& sight, const ViewData& view, const std::function<void()>& show) {
-    CellStream stream(supply_, sight);
+    CellStream stream(supply_, sight, device_->first_batch_ms());
     DrawPart part{.is_first = true, .is_last = false, .wants_hits = bool(show)};
     while (!part.is_last) {
       const Result<CellBatch> batch = stream.next();

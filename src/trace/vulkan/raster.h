@@ -25,8 +25,8 @@ class RasterTracer : public Tracer {
   /// to traverse and set up. Precondition: render() was called.
   virtual void set_up(const Camera& camera) = 0;
   virtual RasterStats stats() const = 0;
-  /// From now on render() calls this with what is known so far, whenever it is more: pixels that are
-  /// background may become hits, hits stay what they are.
+  /// From now on render() calls this with what is known so far, whenever it is more: pixels that
+  /// are background may become hits, hits stay what they are.
   virtual void watch(std::function<void(const Frame&)> watch) = 0;
 };
 

@@ -3,8 +3,7 @@
 namespace whittle {
 
 Result<SceneData> SceneData::make(const RasterDevice& device, gpu::Commands& commands,
-                                  const Bindings& bindings,
-                                  std::span<const uint32_t> half_spaces) {
+                                  const Bindings& bindings, std::span<const uint32_t> half_spaces) {
   SceneData made;
   made.device_ = &device;
   made.commands_ = &commands;
@@ -24,8 +23,8 @@ Status SceneData::append(std::span<const uint32_t> cells, std::span<const uint32
 
 Status SceneData::append(Store& store, std::span<const uint32_t> words) {
   if (Status done = grow(store, store.used + words.size_bytes()); !done) return done;
-  Status done = gpu::upload(device_->gpu(), *commands_, store.to.buffer, std::as_bytes(words),
-                            store.used);
+  Status done =
+      gpu::upload(device_->gpu(), *commands_, store.to.buffer, std::as_bytes(words), store.used);
   if (done) store.used += words.size_bytes();
   return done;
 }

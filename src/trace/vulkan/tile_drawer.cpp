@@ -221,8 +221,8 @@ void TileDrawer::record_drawing(VkCommandBuffer commands, bool has_asked, const 
   VkRenderingAttachmentInfo depth = color;
   depth.imageView = depth_.view();
   depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-  depth.loadOp = part.is_first && !has_asked ? VK_ATTACHMENT_LOAD_OP_CLEAR
-                                             : VK_ATTACHMENT_LOAD_OP_LOAD;
+  depth.loadOp =
+      part.is_first && !has_asked ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
   depth.storeOp = part.is_last ? VK_ATTACHMENT_STORE_OP_DONT_CARE : VK_ATTACHMENT_STORE_OP_STORE;
   depth.clearValue.depthStencil.depth = 1;
   VkRenderingInfo rendering{};
