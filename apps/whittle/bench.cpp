@@ -178,11 +178,14 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   };
   RasterTimes raster_times;
   for (int i = 0; i < a.repeat; ++i) {
+    renderer->discard();
     if (Status done = renderer->prepare(camera, Refine::kAll); !done) return done.error();
     subdivide.push_back(renderer->times().subdivide);
     cells = statistics();
     if (Status done = raster_times.measure_in_turn(*renderer, camera); !done) return done.error();
 
+    // To free the old cells is no part of any stage.
+    renderer->discard();
     const Stopwatch watch;
     if (Status prepared = renderer->prepare(camera); !prepared) return prepared.error();
     const Result<Frame> frame = renderer->trace(camera);

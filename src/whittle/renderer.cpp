@@ -174,6 +174,13 @@ Status Renderer::prepare(const Camera& camera, Refine refine) {
   return made;
 }
 
+void Renderer::discard() {
+  state_->tracer.reset();
+  state_->cpu = nullptr;
+  state_->raster = nullptr;
+  state_->cells.reset();
+}
+
 Result<Frame> Renderer::trace(const Camera& camera, const Progress& progress) {
   const auto start = Clock::now();
   Frame frame = tracer().render(camera, progress);

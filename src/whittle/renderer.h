@@ -76,6 +76,8 @@ class Renderer {
   /// only if there is a pixel threshold. The oracle has no cells.
   /// Fails if the device refuses; with kAuto the CPU goes on in its place, here and below.
   Status prepare(const Camera& camera, Refine refine = Refine::kWhereRaysCome);
+  /// Gives back what prepare() made; it may be called again.
+  void discard();
   /// Precondition of all below: prepare() was called.
   Result<Frame> trace(const Camera& camera, const Progress& progress = {});
   Result<Picture> shade(const Frame& frame, const Camera& camera, const ShadeSettings& settings,

@@ -13,7 +13,7 @@
 #include "support/agreement.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"
-#include "trace/vulkan/cell_supply.h"
+#include "trace/vulkan/cell_stream.h"
 #include "trace/vulkan/view_data.h"
 
 namespace whittle {
@@ -197,6 +197,43 @@ TEST(FrontToBack, AStreamHasTheSameOrderAndWhatIsSeenLaterIsStillThere) {
   }
   EXPECT_GT(met, 10000);
   EXPECT_GT(batches, 50) << "there are many batches";
+}
+
+TEST(FrontToBack, AStreamFromItsOwnThreadIsTheSame) {
+  const RandomModel subject(3);
+  const Camera camera = cameras_for(subject.model, 24, 16)[0];
+  const Sight sight = subject.sight(camera);
+  const auto whole = [&] {
+    const CellTree tree = open_cells(subject.scene, subject.settings);
+    CellSupply supply(subject.scene, tree, true, 2);
+    int batches = 0;
+    return stream_of(supply, sight, camera, 0, batches);
+  }();
+  ASSERT_GT(whole.size(), 50u);
+  const CellTree tree = open_cells(subject.scene, subject.settings);
+  CellSupply supply(subject.scene, tree, true, 2);
+  std::vector<VisibleCell> visible;
+  {
+    CellStream stream(supply, sight, 0);
+    const std::vector<uint32_t> nothing(24 * 16, 0);
+    for (bool is_last = false; !is_last;) {
+      const Result<CellBatch> batch = stream.next();
+      ASSERT_TRUE(batch);
+      visible.insert(visible.end(), batch->visible.begin(), batch->visible.end());
+      stream.hide(std::make_shared<const SolvedPixels>(nothing, 24, 16));
+      is_last = batch->is_last;
+    }
+  }
+  const auto same = [](const VisibleCell& a, const VisibleCell& b) {
+    return a.cell == b.cell && a.leaf_case == b.leaf_case && a.is_wide == b.is_wide;
+  };
+  EXPECT_TRUE(std::ranges::equal(visible, whole, same));
+
+  // Nobody need wait for its end.
+  const CellTree other = open_cells(subject.scene, subject.settings);
+  CellSupply abandoned(subject.scene, other, true, 2);
+  CellStream stream(abandoned, sight, 0);
+  EXPECT_TRUE(stream.next());
 }
 
 }  // namespace

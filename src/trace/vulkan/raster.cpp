@@ -149,7 +149,10 @@ class RasterTracerImpl final : public RasterTracer {
     CellStream stream(supply_, sight, device_->first_batch_ms());
     DrawPart part{.is_first = true, .is_last = false, .wants_hits = bool(show)};
     while (!part.is_last) {
+      // What it throws leaves cells behind that never come.
+      status_ = Error{ErrorKind::kMachine, "the cells were not refined"};
       const Result<CellBatch> batch = stream.next();
+      status_ = Done{};
       if (Status done = send(batch); !done) return done;
       part.is_last = batch->is_last;
       if (Status done = drawer_.draw(view, batch->visible, nullptr, stats_, part); !done)
