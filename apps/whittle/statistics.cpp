@@ -49,11 +49,13 @@ void add_rays(Lines out, const TraceStats& s) {
 }
 
 void add_drawing(Lines out, const RasterStats& s) {
+  const uint64_t drawn = s.drawn_first + s.drawn_second;
   fmt::format_to(out,
-                 "drawn         {:>12}   of {} cells, by {} draws\n"
+                 "drawn         {:>12}   of {} cells in view, {} of them because others did not "
+                 "hide them; {} calls\n"
                  "device (ms)   {:>12.1f}   draw {:.1f}, resolve {:.1f}; sorted in {:.1f}\n",
-                 s.drawn, s.cells, s.draws, s.draw_ms + s.resolve_ms, s.draw_ms, s.resolve_ms,
-                 s.order_ms);
+                 drawn, s.in_view, s.drawn_second, s.draws, s.draw_ms + s.resolve_ms, s.draw_ms,
+                 s.resolve_ms, s.order_ms);
 }
 
 }  // namespace

@@ -72,8 +72,8 @@ Status Renderer::State::choose_backend() {
   if (is_auto)
     settings.backend = gpu::has_graphics_hardware() ? Backend::kVulkanRaster : Backend::kCpu;
   if (settings.backend != Backend::kVulkanRaster) return Done{};
-  Result<std::shared_ptr<RasterDevice>> opened =
-      open_raster_device({.device = settings.device, .shaders = settings.shaders});
+  Result<std::shared_ptr<RasterDevice>> opened = open_raster_device(
+      {.device = settings.device, .shaders = settings.shaders, .culling = settings.culling});
   if (opened && !(is_auto && is_software(**opened))) {
     device = *std::move(opened);
     backend_note = describe(*device);

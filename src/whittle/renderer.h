@@ -39,7 +39,8 @@ struct RendererSettings {
   Backend backend = Backend::kAuto;
   std::string device{};  ///< of a vulkan backend: number or part of a name; empty: the best
   ShaderCases shaders = RasterSettings{}.shaders;  ///< of vulkan-raster
-  int threads = 0;                                 ///< 0: all
+  bool culling = RasterSettings{}.culling;
+  int threads = 0;              ///< 0: all
   SubdivideSettings subdivide;  ///< `threads` and `is_small` are set from here and below
   double pixel_threshold = 0;   ///< cells whose edges are all shorter are small; 0: none is
 };

@@ -53,17 +53,20 @@ VkPipelineShaderStageCreateInfo stage_of(VkShaderStageFlagBits stage, VkShaderMo
   return info;
 }
 
-Status make_resolve(const Device& device, VkShaderModule resolve, Pipelines& p) {
+Result<Owned<VkPipeline>> make_compute(const Device& device, VkPipelineLayout layout,
+                                       std::span<const uint32_t> words) {
+  Result<Owned<VkShaderModule>> shader = gpu::make_shader(device, words);
+  if (!shader) return shader.error();
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-  info.stage = stage_of(VK_SHADER_STAGE_COMPUTE_BIT, resolve);
-  info.layout = p.layout.get();
+  info.flags = VK_PIPELINE_CREATE_DISPATCH_BASE_BIT;
+  info.stage = stage_of(VK_SHADER_STAGE_COMPUTE_BIT, shader->get());
+  info.layout = layout;
   VkPipeline pipeline = VK_NULL_HANDLE;
   const VkResult result =
       vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
   if (result != VK_SUCCESS) return device.error(result, "compile shaders");
-  p.resolve = {device.handle(), pipeline, vkDestroyPipeline};
-  return Done{};
+  return Owned<VkPipeline>(device.handle(), pipeline, vkDestroyPipeline);
 }
 
 }  // namespace
@@ -73,11 +76,15 @@ VkDescriptorType descriptor_type(uint32_t binding, bool storage) {
     case kViewBinding:
       return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     case kSeenBinding:
+    case kDepthsBinding:
       return VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-    case kHitsBinding:
-      return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    default:
+    case kHalfSpacesBinding:
+    case kCellsBinding:
+    case kWordsBinding:
+    case kPositionsBinding:
       return storage ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    default:
+      return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
   }
 }
 
@@ -85,14 +92,17 @@ Result<Pipelines> make_pipelines(const Device& device, bool doubles, bool storag
   Pipelines p;
   if (Status made = make_layouts(device, storage, p); !made) return made.error();
   const ShaderSet code = shaders(doubles, storage);
-  Owned<VkShaderModule> resolve;
-  for (auto [words, to] : {std::pair(code.cells, &p.cells), std::pair(code.visible, &p.visible),
-                           std::pair(code.resolve, &resolve)}) {
+  for (auto [words, to] : {std::pair(code.cells, &p.cells), std::pair(code.visible, &p.visible)}) {
     Result<Owned<VkShaderModule>> made = gpu::make_shader(device, words);
     if (!made) return made.error();
     *to = *std::move(made);
   }
-  if (Status made = make_resolve(device, resolve.get(), p); !made) return made.error();
+  for (auto [words, to] : {std::pair(code.resolve, &p.resolve), std::pair(code.pyramid, &p.pyramid),
+                           std::pair(code.hidden, &p.hidden)}) {
+    Result<Owned<VkPipeline>> made = make_compute(device, p.layout.get(), words);
+    if (!made) return made.error();
+    *to = *std::move(made);
+  }
   return p;
 }
 

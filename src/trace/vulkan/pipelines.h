@@ -18,8 +18,13 @@ enum Binding : uint32_t {
   kPositionsBinding,
   kSeenBinding,
   kHitsBinding,
+  kDepthsBinding,
+  kPyramidBinding,
+  kInstancesBinding,
+  kDrawsBinding,
+  kLastSeenBinding,
 };
-inline constexpr uint32_t kBindings = 7;
+inline constexpr uint32_t kBindings = 12;
 
 /// What the device draws into.
 inline constexpr VkFormat kSeenFormat = VK_FORMAT_R32_UINT;
@@ -42,7 +47,7 @@ struct Pipelines {
   gpu::Owned<VkPipelineLayout> layout;
   gpu::Owned<VkShaderModule> cells, visible;
   std::array<gpu::Owned<VkPipeline>, kLeafCases> draw;  ///< those that were needed so far
-  gpu::Owned<VkPipeline> resolve;
+  gpu::Owned<VkPipeline> resolve, pyramid, hidden;
 };
 /// All but the drawing ones.
 Result<Pipelines> make_pipelines(const gpu::Device& device, bool doubles, bool storage);

@@ -56,6 +56,7 @@ class RasterTracerImpl final : public RasterTracer {
     Frame frame(camera.width, camera.height);
     stats_ = {};
     start_ = Clock::now();
+    drawer_.begin_picture();
     if (supply_.flat().root == kNoChild) return frame;
     const std::vector<PixelRect> tiles = tiles_of(pixels_covering(camera, world_region()));
     for (size_t i = 0; i < tiles.size() && status_; ++i) {
@@ -64,7 +65,8 @@ class RasterTracerImpl final : public RasterTracer {
         copy_hits(tile, frame);
         watch_(frame);
       };
-      status_ = trace_tile(camera, tile, nullptr, watch_ ? std::function<void()>(show) : nullptr);
+      status_ =
+          trace_tile(camera, tile, nullptr, stats_, watch_ ? std::function<void()>(show) : nullptr);
       if (!status_) break;
       copy_hits(tile, frame);
       if (progress) progress(double(i + 1) / double(tiles.size()));
@@ -77,7 +79,8 @@ class RasterTracerImpl final : public RasterTracer {
   void set_up(const Camera& camera) override {
     for (const PixelRect& tile : tiles_of(pixels_covering(camera, world_region()))) {
       if (!status_) return;
-      status_ = trace_tile(camera, tile, nullptr, nullptr, {.is_dry = true});
+      RasterStats unused;
+      status_ = trace_tile(camera, tile, nullptr, unused, nullptr, {.is_dry = true});
     }
   }
 
@@ -88,7 +91,8 @@ class RasterTracerImpl final : public RasterTracer {
     for (const PixelRect& tile : tiles_of(pixels_of(positions))) {
       for (const ProbeLayer& layer : probe_layers(positions, tile)) {
         if (!status_) return;
-        status_ = trace_tile(camera, tile, &layer, nullptr);
+        RasterStats unused;
+        status_ = trace_tile(camera, tile, &layer, unused, nullptr);
         if (!status_) return std::fill(hits.begin(), hits.end(), Hit{});
         for (const ProbeLayer::Place& place : layer.places)
           hits[place.position] = drawer_.hits()[place.pixel];
@@ -123,7 +127,8 @@ class RasterTracerImpl final : public RasterTracer {
 
   /// `show`, if any, is called when some of the tile's pixels are known: others are background yet.
   Status trace_tile(const Camera& camera, const PixelRect& tile, const ProbeLayer* layer,
-                    const std::function<void()>& show, const DrawPart& part = {}) {
+                    RasterStats& stats, const std::function<void()>& show,
+                    const DrawPart& part = {}) {
     // A place may be anywhere in its pixel.
     const double margin = device_->margin(camera) + (layer ? 1 : 0);
     const Sight sight(camera, local_eye(scene_, camera), scene_.origin, tile, margin);
@@ -139,14 +144,14 @@ class RasterTracerImpl final : public RasterTracer {
       if (Status done = send(supply_.refined(open_, sight)); !done) return done;
       order_front_to_back(supply_.flat(), supply_.region(), sight, visible_, open_);
     }
-    stats_.order_ms += milliseconds_since(start);
-    stats_.drawn += visible_.size();
-    return drawer_.draw(view, visible_, layer, stats_, part);
+    stats.order_ms += milliseconds_since(start);
+    return drawer_.draw(view, visible_, supply_.cell_count(), layer, stats, part);
   }
 
   /// The first picture: cells are refined while others are drawn.
   Status draw_stream(const Sight& sight, const ViewData& view, const std::function<void()>& show) {
     CellStream stream(supply_, sight, device_->first_batch_ms());
+    size_t sent = 0;  // the supply is not to be asked while the stream runs
     DrawPart part{.is_first = true, .is_last = false, .wants_hits = bool(show)};
     while (!part.is_last) {
       // What it throws leaves cells behind that never come.
@@ -155,11 +160,11 @@ class RasterTracerImpl final : public RasterTracer {
       status_ = Done{};
       if (Status done = send(batch); !done) return done;
       part.is_last = batch->is_last;
-      if (Status done = drawer_.draw(view, batch->visible, nullptr, stats_, part); !done)
+      sent += batch->cells.size() / kCellWords;
+      if (Status done = drawer_.draw(view, batch->visible, sent, nullptr, stats_, part); !done)
         return done;
       if (part.is_first) stats_.first_ms = milliseconds_since(start_);
       ++stats_.batches;
-      stats_.drawn += batch->visible.size();
       part.rank += uint32_t(batch->visible.size());
       part.is_first = false;
       if (part.is_last) break;

@@ -33,6 +33,7 @@ Status RasterDevice::choose(const RasterSettings& settings) {
                                                       : settings.numbers == ShaderNumbers::kDouble;
   if (doubles_ && !info.float64)
     return Error{ErrorKind::kMachine, info.name + " cannot compute in double precision"};
+  culling_ = settings.culling;
   specialised_ = settings.shaders == ShaderCases::kSpecialised;
   // A software device that has room for many texels is Mesa's.
   constexpr uint32_t kManyTexels = 1u << 27;

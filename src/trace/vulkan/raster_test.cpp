@@ -47,8 +47,8 @@ TEST(Raster, SaysWhatItDid) {
   tracer->render(camera, {});
   EXPECT_TRUE(tracer->status());
   EXPECT_EQ(tracer->stats().cells, statistics_of(subject.cells).leaf_count());
-  EXPECT_GT(tracer->stats().drawn, tracer->stats().cells / 2);
-  EXPECT_LE(tracer->stats().drawn, tracer->stats().cells);
+  EXPECT_GT(tracer->stats().in_view, tracer->stats().cells / 2);
+  EXPECT_LE(tracer->stats().in_view, tracer->stats().cells);
   EXPECT_GT(tracer->stats().draw_ms, 0);
 }
 

@@ -40,16 +40,46 @@ constexpr uint32_t kResolveDoubleTexel[] = {
 constexpr uint32_t kResolveDoubleStorage[] = {
 #include "resolve.comp.double.storage.inc"
 };
+constexpr uint32_t kPyramidFloatTexel[] = {
+#include "pyramid.comp.float.texel.inc"
+};
+constexpr uint32_t kPyramidFloatStorage[] = {
+#include "pyramid.comp.float.storage.inc"
+};
+constexpr uint32_t kPyramidDoubleTexel[] = {
+#include "pyramid.comp.double.texel.inc"
+};
+constexpr uint32_t kPyramidDoubleStorage[] = {
+#include "pyramid.comp.double.storage.inc"
+};
+constexpr uint32_t kHiddenFloatTexel[] = {
+#include "hidden.comp.float.texel.inc"
+};
+constexpr uint32_t kHiddenFloatStorage[] = {
+#include "hidden.comp.float.storage.inc"
+};
+constexpr uint32_t kHiddenDoubleTexel[] = {
+#include "hidden.comp.double.texel.inc"
+};
+constexpr uint32_t kHiddenDoubleStorage[] = {
+#include "hidden.comp.double.storage.inc"
+};
 
 }  // namespace
 
 ShaderSet shaders(bool doubles, bool storage) {
   if (doubles) {
-    if (storage) return {kCellsDoubleStorage, kVisibleDoubleStorage, kResolveDoubleStorage};
-    return {kCellsDoubleTexel, kVisibleDoubleTexel, kResolveDoubleTexel};
+    if (storage)
+      return {kCellsDoubleStorage, kVisibleDoubleStorage, kResolveDoubleStorage,
+              kPyramidDoubleStorage, kHiddenDoubleStorage};
+    return {kCellsDoubleTexel, kVisibleDoubleTexel, kResolveDoubleTexel, kPyramidDoubleTexel,
+            kHiddenDoubleTexel};
   }
-  if (storage) return {kCellsFloatStorage, kVisibleFloatStorage, kResolveFloatStorage};
-  return {kCellsFloatTexel, kVisibleFloatTexel, kResolveFloatTexel};
+  if (storage)
+    return {kCellsFloatStorage, kVisibleFloatStorage, kResolveFloatStorage, kPyramidFloatStorage,
+            kHiddenFloatStorage};
+  return {kCellsFloatTexel, kVisibleFloatTexel, kResolveFloatTexel, kPyramidFloatTexel,
+          kHiddenFloatTexel};
 }
 
 }  // namespace whittle

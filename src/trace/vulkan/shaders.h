@@ -10,7 +10,8 @@ namespace whittle {
 struct ShaderSet {
   std::span<const uint32_t> cells;    ///< vertices
   std::span<const uint32_t> visible;  ///< fragments
-  std::span<const uint32_t> resolve;  ///< compute
+  // Compute:
+  std::span<const uint32_t> resolve, pyramid, hidden;
 };
 ShaderSet shaders(bool doubles, bool storage);
 

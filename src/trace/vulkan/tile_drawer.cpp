@@ -24,6 +24,15 @@ uint32_t side_for(int pixels) {
                                                : unsigned(pixels);
 }
 
+/// Pixels to squares of shaders/pyramid.glsl, and what one workgroup does for each to workgroups:
+/// both have that side.
+constexpr uint32_t groups(int pixels) {
+  return (uint32_t(pixels) + kGroupSide - 1) / kGroupSide;
+}
+constexpr int squares(int pixels) {
+  return int(groups(pixels));
+}
+
 constexpr gpu::ImageUse kUnused{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_NONE, 0};
 constexpr gpu::ImageUse kFilled{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
                                 VK_ACCESS_2_TRANSFER_WRITE_BIT};
@@ -31,9 +40,12 @@ constexpr gpu::ImageUse kTested{
     VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
     VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
-constexpr gpu::ImageUse kDrawn{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                               VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                               VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+constexpr gpu::ImageUse kDrawn{
+    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+constexpr gpu::ImageUse kMeasured{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                  VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                                  VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
 constexpr gpu::ImageUse kResolved{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                   VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
@@ -80,8 +92,9 @@ Status TileDrawer::resize(int width, int height) {
   if (!seen) return seen.error();
   seen_ = *std::move(seen);
   Result<Image> depth =
-      Image::make(gpu(), kDepthFormat, uint32_t(width), uint32_t(height),
-                  VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+      Image::make(gpu(), kDepthFormat, side_for(width), side_for(height),
+                  VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                      VK_IMAGE_USAGE_SAMPLED_BIT);
   if (!depth) return depth.error();
   depth_ = *std::move(depth);
   const VkDeviceSize pixels = VkDeviceSize(width) * VkDeviceSize(height);
@@ -97,6 +110,14 @@ Status TileDrawer::resize(int width, int height) {
                                 Placement::kUpload);
       !done)
     return done;
+  const VkDeviceSize pyramid =
+      squares(width) * squares(height) + squares(squares(width)) * squares(squares(height));
+  if (Status done = make_buffer(pyramid_, pyramid * sizeof(float),
+                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Placement::kDevice);
+      !done)
+    return done;
+  bindings_->bind(kPyramidBinding, pyramid_);
+  bindings_->bind(kDepthsBinding, depth_);
   bindings_->bind(kPositionsBinding, positions_);
   bindings_->bind(kHitsBinding, hits_);
   bindings_->bind(kSeenBinding, seen_);
@@ -106,21 +127,45 @@ Status TileDrawer::resize(int width, int height) {
   return Done{};
 }
 
-Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells,
+Status TileDrawer::make_last_seen(size_t cells) {
+  const VkDeviceSize bytes = (cells + 1) * sizeof(uint32_t), old = last_seen_.bytes();
+  if (old >= bytes) return Done{};
+  Buffer before = std::move(last_seen_);
+  if (Status done = make_buffer(last_seen_, std::max(bytes, old * 3 / 2),
+                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Placement::kRead);
+      !done)
+    return done;
+  auto* const to = static_cast<std::byte*>(last_seen_.mapped());
+  if (old > 0) std::memcpy(to, before.mapped(), old);
+  std::memset(to + old, 0, last_seen_.bytes() - old);
+  bindings_->bind(kLastSeenBinding, last_seen_);
+  return Done{};
+}
+
+Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells, size_t cell_count,
                         const ProbeLayer* layer, RasterStats& stats, const DrawPart& part) {
-  if (cells.size() > kMostRanks - part.rank)
-    return Error{ErrorKind::kMachine, "more cells than a depth buffer can tell apart"};
-  if (part.is_first) {
-    if (Status done = resize(view.tile_size[0], view.tile_size[1]); !done) return done;
-    std::memcpy(view_.mapped(), &view, sizeof(view));
-    if (layer != nullptr) {
-      std::memcpy(positions_.buffer.mapped(), layer->positions.data(),
-                  layer->positions.size() * sizeof(PixelPosition));
-      std::memcpy(asked_.mapped(), layer->depth.data(), layer->depth.size() * sizeof(float));
-    }
+  if (Status done = resize(view.tile_size[0], view.tile_size[1]); !done) return done;
+  if (Status done = make_last_seen(cell_count); !done) return done;
+  const bool has_asked = layer != nullptr;
+  // The parts of a stream have been looked at for what the ones before hide.
+  const bool culls = device_->culling() && part.is_whole();
+  const auto since = std::max(picture_, 2u) - 1;
+  if (Status done =
+          list_.fill(*device_, *bindings_, cells, part.rank,
+                     {static_cast<const uint32_t*>(last_seen_.mapped()), cell_count}, since,
+                     !culls      ? Hiding::kNone
+                     : has_asked ? Hiding::kEverything
+                                 : Hiding::kPicture);
+      !done)
+    return done;
+  ViewData sent = view;
+  sent.picture = picture_;
+  std::memcpy(view_.mapped(), &sent, sizeof(sent));
+  if (has_asked) {
+    std::memcpy(positions_.buffer.mapped(), layer->positions.data(),
+                layer->positions.size() * sizeof(PixelPosition));
+    std::memcpy(asked_.mapped(), layer->depth.data(), layer->depth.size() * sizeof(float));
   }
-  if (Status done = make_instances(cells, part.rank); !done) return done;
-  if (part.is_dry) draws_.clear();
   if (!part.is_last && seen_copy_.bytes() == 0) {
     const VkDeviceSize pixels = VkDeviceSize(width_) * VkDeviceSize(height_);
     if (Status done = make_buffer(seen_copy_, pixels * sizeof(uint32_t),
@@ -129,14 +174,20 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
       return done;
   }
 
-  stats.draws += uint32_t(draws_.size());
   Result<VkCommandBuffer> recording = commands_->begin();
   if (!recording) return recording.error();
+  if (part.is_dry) return commands_->run();
   commands_->stamp();
-  record_drawing(*recording, layer != nullptr, part);
+  if (has_asked) record_asked(*recording);
+  for (const DrawList::Pass pass : {DrawList::kFirst, DrawList::kSecond}) {
+    if (pass == DrawList::kSecond && !culls) break;
+    if (list_.is_tested(pass)) record_test(*recording, pass);
+    const bool is_first = part.is_first && pass == DrawList::kFirst;
+    record_drawing(*recording, pass, is_first, has_asked || !is_first);
+  }
   if (!part.is_last) record_copy_of_seen(*recording);
   commands_->stamp();
-  if ((part.is_last && !part.is_dry) || part.wants_hits) record_resolving(*recording);
+  if (part.is_last || part.wants_hits) record_resolving(*recording);
   commands_->stamp();
   if (Status done = commands_->run(); !done) return done;
   const std::vector<double> times = commands_->intervals();
@@ -144,86 +195,62 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
     stats.draw_ms += times[0];
     stats.resolve_ms += times[1];
   }
+  stats.in_view += cells.size();
+  stats.drawn_first += list_.drawn(DrawList::kFirst);
+  if (culls) stats.drawn_second += list_.drawn(DrawList::kSecond);
+  stats.draws += list_.size() * (culls ? 2 : 1);
   return Done{};
 }
 
-/// Sorted by case, and front to back within each.
-Status TileDrawer::make_instances(std::span<const VisibleCell> cells, uint32_t rank) {
-  if (Status done = reserve(instances_, (cells.size() + 1) * sizeof(Instance),
-                            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-      !done)
-    return done;
-  std::array<uint32_t, 2 * kLeafCases> next{};
-  const auto draw_of = [&](const VisibleCell& cell) {
-    return 2 * device_->shader_for(cell.leaf_case) + (cell.is_wide ? 0 : 1);
-  };
-  for (const VisibleCell& cell : cells) ++next[draw_of(cell)];
-  draws_.clear();
-  uint32_t first = 0;
-  for (uint32_t i = 0; i < next.size(); ++i) {
-    const uint32_t count = std::exchange(next[i], first);
-    if (count == 0) continue;
-    draws_.push_back({LeafCase(i / 2), i % 2 == 0, first, count});
-    if (Status done = device_->need(LeafCase(i / 2)); !done) return done;
-    first += count;
-  }
-  // Powers of two: every depth is exact.
-  constexpr double kStep = 1.0 / (kMostRanks + 1);
-  auto* const to = static_cast<Instance*>(instances_.mapped());
-  for (const VisibleCell& cell : cells)
-    to[next[draw_of(cell)]++] = {cell.cell, float(kStep * ++rank)};
-
-  if (Status done =
-          reserve(commands_of_draws_, (draws_.size() + 1) * sizeof(VkDrawIndexedIndirectCommand),
-                  VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
-      !done)
-    return done;
-  auto* const commands = static_cast<VkDrawIndexedIndirectCommand*>(commands_of_draws_.mapped());
-  for (size_t i = 0; i < draws_.size(); ++i) {
-    const Draw& draw = draws_[i];
-    commands[i] = {draw.is_wide ? kSquareIndices : kBoxIndices, draw.count,
-                   draw.is_wide ? kBoxIndices : 0, 0, 0};
-  }
-  return Done{};
+/// The depths that shut pixels.
+void TileDrawer::record_asked(VkCommandBuffer commands) const {
+  gpu::change_use(commands, depth_.handle(), depth_.aspect(), kUnused, kFilled);
+  VkBufferImageCopy copy{};
+  copy.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
+  copy.imageExtent = {uint32_t(width_), uint32_t(height_), 1};
+  vkCmdCopyBufferToImage(commands, asked_.handle(), depth_.handle(),
+                         VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+  gpu::change_use(commands, depth_.handle(), depth_.aspect(), kFilled, kTested);
 }
 
-/// Makes room in a buffer, half as much again as it has.
-Status TileDrawer::reserve(Buffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage) {
-  if (buffer.bytes() >= bytes) return Done{};
-  return make_buffer(buffer, std::max(bytes, buffer.bytes() * 3 / 2), usage, Placement::kUpload);
+/// Makes a pyramid of the depths so far, and leaves out of the pass what it hides.
+void TileDrawer::record_test(VkCommandBuffer commands, DrawList::Pass pass) const {
+  gpu::change_use(commands, depth_.handle(), depth_.aspect(), kTested, kMeasured);
+  // What the test writes, the pass before has read.
+  gpu::wait_for(commands,
+                VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT |
+                    VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT |
+                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+  bindings_->use(commands, VK_PIPELINE_BIND_POINT_COMPUTE);
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_->pipelines().pyramid.get());
+  vkCmdDispatch(commands, groups(squares(width_)), groups(squares(height_)), 1);
+  gpu::wait_for(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+  list_.record_test(commands, pass);
+  gpu::change_use(commands, depth_.handle(), depth_.aspect(), kMeasured, kTested);
 }
 
-void TileDrawer::record_drawing(VkCommandBuffer commands, bool has_asked, const DrawPart& part) {
+void TileDrawer::record_drawing(VkCommandBuffer commands, DrawList::Pass pass, bool is_first,
+                                bool has_depth) {
   const VkExtent2D extent{uint32_t(width_), uint32_t(height_)};
-  if (!part.is_first) {
-    gpu::change_use(commands, depth_.handle(), depth_.aspect(), kTested, kTested);
-  } else if (has_asked) {
-    gpu::change_use(commands, depth_.handle(), depth_.aspect(), kUnused, kFilled);
-    VkBufferImageCopy copy{};
-    copy.imageSubresource = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 0, 1};
-    copy.imageExtent = {extent.width, extent.height, 1};
-    vkCmdCopyBufferToImage(commands, asked_.handle(), depth_.handle(),
-                           VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
-    gpu::change_use(commands, depth_.handle(), depth_.aspect(), kFilled, kTested);
-  } else {
-    gpu::change_use(commands, depth_.handle(), depth_.aspect(), kUnused, kTested);
-  }
-  gpu::change_use(commands, seen_.handle(), seen_.aspect(), part.is_first ? kUnused : seen_use_,
-                  kDrawn);
+  gpu::change_use(commands, depth_.handle(), depth_.aspect(), has_depth ? kTested : kUnused,
+                  kTested);
+  gpu::change_use(commands, seen_.handle(), seen_.aspect(), is_first ? kUnused : seen_use_, kDrawn);
   seen_use_ = kDrawn;
 
   VkRenderingAttachmentInfo color{};
   color.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
   color.imageView = seen_.view();
   color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-  color.loadOp = part.is_first ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
+  color.loadOp = is_first ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
   color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
   VkRenderingAttachmentInfo depth = color;
   depth.imageView = depth_.view();
   depth.imageLayout = VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL;
-  depth.loadOp =
-      part.is_first && !has_asked ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
-  depth.storeOp = part.is_last ? VK_ATTACHMENT_STORE_OP_DONT_CARE : VK_ATTACHMENT_STORE_OP_STORE;
+  depth.loadOp = has_depth ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
   depth.clearValue.depthStencil.depth = 1;
   VkRenderingInfo rendering{};
   rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
@@ -239,16 +266,7 @@ void TileDrawer::record_drawing(VkCommandBuffer commands, bool has_asked, const 
   vkCmdSetScissor(commands, 0, 1, &scissor);
   bindings_->use(commands, VK_PIPELINE_BIND_POINT_GRAPHICS);
   vkCmdBindIndexBuffer(commands, indices_.handle(), 0, VK_INDEX_TYPE_UINT16);
-  const VkBuffer instances = instances_.handle();
-  for (size_t i = 0; i < draws_.size(); ++i) {
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                      device_->pipelines().draw[draws_[i].shader].get());
-    // An offset, and not a first instance in the command: that would be one more feature to need.
-    const VkDeviceSize first = draws_[i].first * sizeof(Instance);
-    vkCmdBindVertexBuffers(commands, 0, 1, &instances, &first);
-    vkCmdDrawIndexedIndirect(commands, commands_of_draws_.handle(),
-                             i * sizeof(VkDrawIndexedIndirectCommand), 1, 0);
-  }
+  list_.record(commands, pass);
   vkCmdEndRendering(commands);
 }
 
@@ -269,7 +287,6 @@ void TileDrawer::record_resolving(VkCommandBuffer commands) {
   seen_use_ = kResolved;
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_->pipelines().resolve.get());
   bindings_->use(commands, VK_PIPELINE_BIND_POINT_COMPUTE);
-  const auto groups = [](int pixels) { return (uint32_t(pixels) + kGroupSide - 1) / kGroupSide; };
   vkCmdDispatch(commands, groups(width_), groups(height_), 1);
   gpu::wait_for(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                 VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT,

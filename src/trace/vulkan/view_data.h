@@ -17,7 +17,7 @@ struct ViewData {
   uint32_t orthographic = 0;
   uint32_t probes = 0;
   float margin = 0;
-  uint32_t unused = 0;
+  uint32_t picture = 0;  ///< its number
 };
 static_assert(sizeof(ViewData) == 192);
 

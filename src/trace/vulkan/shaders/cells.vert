@@ -6,6 +6,7 @@
 #include "cases.glsl"
 #include "scene.glsl"
 #include "view.glsl"
+#include "boxes.glsl"
 
 layout(location = 0) in uint cell;    // per instance
 layout(location = 1) in float depth;  // and in which order
@@ -19,16 +20,9 @@ void main() {
     gl_Position = vec4(corner * 2 - 1, depth, 1);
     return;
   }
-  Box box = cell_box(cell);
-  const Vec3 eye = view_eye(), forward = view_forward();
-  box.lo -= eye;
-  box.hi -= eye;
+  const Box box = grown_box(cell);
+  const Vec3 forward = view_forward();
   const bool orthographic = view.orthographic != 0;
-  // Grown by so many pixels at its farthest corner.
-  const vec3 farthest = vec3(max(abs(box.lo), abs(box.hi)));
-  const Real grow = view_scale() * view.margin * mix(length(farthest), 1.0, orthographic);
-  box.lo -= grow;
-  box.hi += grow;
   // The side of the box that is seen along the face's axis, if any.
   const int axis = gl_VertexIndex >> 2;
   const bvec3 is_axis = equal(ivec3(axis), ivec3(0, 1, 2));
@@ -47,8 +41,5 @@ void main() {
                             axis == 2 ? sees_hi : axis == 0 ? second : first);
   const Vec3 p = Vec3(is_hi.x ? box.hi.x : box.lo.x, is_hi.y ? box.hi.y : box.lo.y,
                       is_hi.z ? box.hi.z : box.lo.z);
-  const Real scale = view_scale() * mix(dot3(p, forward), K(1), orthographic);
-  const Real x = view_half_width() + dot3(p, view_right()) / scale - Real(view.tile_origin.x),
-             y = view_half_height() - dot3(p, view_up()) / scale - Real(view.tile_origin.y);
-  gl_Position = vec4(vec2(x, y) / vec2(view.tile_size) * 2 - 1, depth, 1);
+  gl_Position = vec4(place_in_tile(p) / vec2(view.tile_size) * 2 - 1, depth, 1);
 }

@@ -20,6 +20,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 0, binding = 5) uniform utexture2D seen;
 layout(set = 0, binding = 6) writeonly buffer Hits { uint hits[]; };
 
+// By cell: the picture in which it was last seen.
+layout(set = 0, binding = 11) writeonly buffer LastSeen { uint last_seen[]; };
+
 const uint kFacts = 5;  // words a pixel: distance, id, normal
 
 bool is_true(uint i) { return (truth[i / 32] >> (i % 32) & 1) != 0; }
@@ -106,6 +109,7 @@ void main() {
   if (any(greaterThanEqual(pixel, view.tile_size))) return;
   const uint at = uint(pixel.y * view.tile_size.x + pixel.x) * kFacts;
   const uint cell = texelFetch(seen, pixel, 0).x;
+  if (cell != 0) last_seen[cell - 1] = view.picture;
   Change change;
   bool is_hit = cell != 0 && enter(cell - 1, make_ray(position_of(pixel)));
   if (is_hit) is_hit = find_change(change);

@@ -9,6 +9,7 @@ layout(set = 0, binding = 0) uniform View {
   uint orthographic;
   uint probes;   // rays go through positions of their own, not through the pixels' centres
   float margin;  // pixels that a box is grown by on the screen
+  uint picture;  // its number
 } view;
 
 Real view_number(int i) {
