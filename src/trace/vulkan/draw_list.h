@@ -14,7 +14,7 @@ namespace whittle {
 enum class Hiding {
   kNone,       ///< all cells are drawn in the first pass
   kPicture,    ///< those of the second are tested
-  kEverything  ///< so are those of the first, as some pixels are shut from the start
+  kEverything  ///< so are those of the first: some pixels are shut, or parts were drawn before
 };
 
 class DrawList {

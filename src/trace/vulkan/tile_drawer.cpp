@@ -147,8 +147,7 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
   if (Status done = resize(view.tile_size[0], view.tile_size[1]); !done) return done;
   if (Status done = make_last_seen(cell_count); !done) return done;
   const bool has_asked = layer != nullptr;
-  // The parts of a stream have been looked at for what the ones before hide.
-  const bool culls = device_->culling() && part.is_whole();
+  const bool culls = device_->culling(), has_depth = has_asked || !part.is_first;
   const auto since = std::max(picture_, 2u) - 1;
   if (Status done =
           list_.fill(*device_, *bindings_, cells, part.rank,
@@ -183,7 +182,7 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
     if (pass == DrawList::kSecond && !culls) break;
     if (list_.is_tested(pass)) record_test(*recording, pass);
     const bool is_first = part.is_first && pass == DrawList::kFirst;
-    record_drawing(*recording, pass, is_first, has_asked || !is_first);
+    record_drawing(*recording, pass, is_first, has_depth || pass == DrawList::kSecond);
   }
   if (!part.is_last) record_copy_of_seen(*recording);
   commands_->stamp();

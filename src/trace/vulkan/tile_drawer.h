@@ -17,8 +17,6 @@ struct DrawPart {
   bool wants_hits = false;  ///< even if it is not the last
   bool is_dry = false;      ///< all is set up, nothing drawn
   uint32_t rank = 0;        ///< cells that the parts before had
-
-  bool is_whole() const { return is_first && is_last; }
 };
 
 class TileDrawer {
