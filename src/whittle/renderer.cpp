@@ -58,7 +58,8 @@ struct Renderer::State {
   std::unique_ptr<Tracer> tracer;
   CpuTracer* cpu = nullptr;        ///< the tracer, if it is that one
   RasterTracer* raster = nullptr;  ///< or that one
-  bool is_auto = false;            ///< nobody chose the backend
+  Refine refine = Refine::kWhereRaysCome;
+  bool is_auto = false;  ///< nobody chose the backend
   std::shared_ptr<RasterDevice> device;
   std::string backend_note;
 
@@ -148,25 +149,40 @@ Status Renderer::State::make_tracer(const Camera& camera) {
   }
   cells = open_cells(scene, subdivision);
   const bool is_raster = settings.backend == Backend::kVulkanRaster;
-  settings.eager || is_raster ? refine_all(*cells, workers) : refine_top(*cells, workers);
+  if (refine == Refine::kAll)
+    refine_all(*cells, workers);
+  else if (!is_raster)
+    refine_top(*cells, workers);
+  times.subdivide = milliseconds_since(start);
+  times.send = 0;
   if (is_raster) {
-    Result<std::unique_ptr<RasterTracer>> made = make_raster_tracer(device, scene, *cells);
+    const auto before_sending = Clock::now();
+    Result<std::unique_ptr<RasterTracer>> made =
+        make_raster_tracer(device, scene, *cells, settings.threads);
     if (!made) return made.error();
     raster = made->get();
     tracer = *std::move(made);
+    times.send = milliseconds_since(before_sending);
   } else {
     std::unique_ptr<CpuTracer> made = make_cpu_tracer(scene, *cells, settings.threads);
     cpu = made.get();
     tracer = std::move(made);
   }
-  times.subdivide = milliseconds_since(start);
   return Done{};
 }
 
-Status Renderer::prepare(const Camera& camera) {
+Status Renderer::prepare(const Camera& camera, Refine refine) {
+  state_->refine = refine;
   Status made = state_->make_tracer(camera);
   if (made || state_->falls_back(made.error(), camera)) return Done{};
   return made;
+}
+
+void Renderer::discard() {
+  state_->tracer.reset();
+  state_->cpu = nullptr;
+  state_->raster = nullptr;
+  state_->cells.reset();
 }
 
 Result<Frame> Renderer::trace(const Camera& camera, const Progress& progress) {

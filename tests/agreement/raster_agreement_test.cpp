@@ -56,6 +56,7 @@ class RasterAgreement : public testing::Test {
     RasterSettings settings;
     settings.shaders = shaders;
     settings.culling = culling;
+    settings.first_batch_ms = 0;  // as many batches as there can be
     settings.validate = true;
     Result<std::shared_ptr<RasterDevice>> opened = open_raster_device(settings);
     EXPECT_TRUE(opened) << opened.error().message;
@@ -95,7 +96,8 @@ class RasterAgreement : public testing::Test {
     AgreementReport sum;
     for (const SubdivideSettings& settings : rules) {
       SCOPED_TRACE("leaf size " + std::to_string(settings.leaf_size));
-      RasterSubject subject(device, model, settings), other(unified, model, settings);
+      // One of them refines its cells while it draws them.
+      RasterSubject subject(device, model, settings), other(unified, model, settings, true);
       for (const Camera& camera : cameras)
         sum += compare(model, *subject.tracer, *other.tracer, *oracle, camera);
       EXPECT_TRUE(subject.tracer->status()) << subject.tracer->status().error().message;
@@ -153,7 +155,7 @@ TEST_F(RasterAgreement, ProbesAnywhereInAPixel) {
     SCOPED_TRACE(name);
     const Model model = example(name);
     const auto oracle = make_oracle_tracer(model);
-    RasterSubject subject(device, model, leaf_size(6)), other(unified, model, leaf_size(6));
+    RasterSubject subject(device, model, leaf_size(6)), other(unified, model, leaf_size(6), true);
     ProbingTracer probing(*subject.tracer), probing_other(*other.tracer);
     for (const Camera& camera : cameras_for(model, 96, 72))
       hits += compare(model, probing, probing_other, *oracle, camera).hits;
@@ -230,7 +232,8 @@ TEST_F(RasterAgreement, HiddenCellsAreLeftOutAndNothingElse) {
   for (const char* name : {"menger3.csg", "cheese1000.csg"}) {
     SCOPED_TRACE(name);
     const Model model = example(name);
-    RasterSubject with(device, model, leaf_size(2)), without(without_culling, model, leaf_size(2));
+    RasterSubject with(device, model, leaf_size(2), true),
+        without(without_culling, model, leaf_size(2), true);
     for (const int side : {64, 160}) {
       for (const Camera& camera : cameras_for(model, side, side)) {
         EXPECT_TRUE(
@@ -298,7 +301,7 @@ TEST_F(RasterAgreement, InPaperModeOnlyIgnoredCellsDiffer) {
       paper.split = SplitRule::kXyz, paper.leaf = LeafRule::kPrimitives;
       paper.ignore_small = true;
       paper.is_small = [&](const Box& box) { return is_below_pixels(camera, box, threshold); };
-      RasterSubject subject(device, model, paper), other(unified, model, paper);
+      RasterSubject subject(device, model, paper), other(unified, model, paper, true);
       const Frame seen = subject.tracer->render(camera, {});
       EXPECT_TRUE(same_bytes(seen, other.tracer->render(camera, {})));
       const std::vector<Box> ignored = ignored_cells(subject.cells);
