@@ -69,7 +69,7 @@ class LeavesInLanes {
 
   void solve(CellKind kind, const Leaf& leaf);
   template <AlongKind kKind>
-  void look_at(const LeafLiteral& literal, size_t number, uint32_t settles, uint32_t settling);
+  uint32_t look_at(const LeafLiteral& literal, size_t number, uint32_t settles, uint32_t settling);
   void find_roots(size_t literals);
   uint32_t solve_in_lanes(const Leaf& leaf, std::span<const LeafLiteral> literals, size_t visitor);
   uint32_t find_owners(const Leaf& leaf, size_t packet, uint32_t lanes, Word state,
@@ -242,10 +242,12 @@ inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
     opposite_[i] = tile_.known[packet] & (tile_.solid[packet] ^ ~settling);
     scratch_.stats.leaves += uint32_t(std::popcount(open_[i]));
   }
-  for (size_t literal = 0; literal < literals.size(); ++literal)
-    with_kind(scene_.half_spaces[literals[literal].literal >> 1].kind, [&](auto along_kind) {
-      look_at<along_kind.value>(literals[literal], literal, settles, settling);
-    });
+  uint32_t any_open = ~0u;
+  for (size_t literal = 0; literal < literals.size() && any_open != 0; ++literal)
+    any_open =
+        with_kind(scene_.half_spaces[literals[literal].literal >> 1].kind, [&](auto along_kind) {
+          return look_at<along_kind.value>(literals[literal], literal, settles, settling);
+        });
   if (settles) {
     for (size_t i = 0; i < visitors.count; ++i) {
       const uint32_t packet = visitors.packet[i], settled = visitors.lanes[i] & ~open_[i];
@@ -272,13 +274,15 @@ inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
       solve_lane(kind, leaf, waiting_[w], uint32_t(std::countr_zero(left)));
 }
 
-/// The signs of one literal for all visitors that wait. If `settles`, a lane along which the
+/// The signs of one literal for all visitors. If `settles`, a lane along which the
 /// literal never changes and is not `settling` (all bits, or none) needs no more literals.
+/// Returns the lanes that still do, of any visitor.
 template <AlongKind kKind>
-HWY_INLINE void LeavesInLanes::look_at(const LeafLiteral& literal, size_t number, uint32_t settles,
-                                       uint32_t settling) {
+HWY_INLINE uint32_t LeavesInLanes::look_at(const LeafLiteral& literal, size_t number,
+                                           uint32_t settles, uint32_t settling) {
   LaneSigns* const signs_of = &signs(number, 0);
   const uint32_t turned = (literal.literal & 1 ? ~0u : 0) ^ settling;
+  uint32_t any_open = 0;
   for (size_t i = 0; i < visitors.count; ++i) {
     const size_t packet = visitors.packet[i];
     const Real t0 = hn::Load(D(), visitors.t0 + i * Tile::lanes()),
@@ -291,7 +295,9 @@ HWY_INLINE void LeavesInLanes::look_at(const LeafLiteral& literal, size_t number
     const uint32_t still = ~(s.changes() | s.bends());
     quiet_[i] &= still;
     open_[i] &= ~(still & (s.inside() ^ turned) & ~opposite_[i] & settles);
+    any_open |= open_[i];
   }
+  return any_open;
 }
 
 /// All crossings of all visitors, infinitely far where a lane has none.
