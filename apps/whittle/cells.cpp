@@ -74,7 +74,7 @@ void add_options(CommandLine& line, CellsArguments& a) {
 Result<Picture> draw(const CellsArguments& a, Renderer& renderer) {
   ProgressLine progress(!a.loading.quiet, "subdividing");
   const Camera camera = renderer.camera(a.view);
-  if (Status prepared = renderer.prepare(camera); !prepared) return prepared.error();
+  if (Status prepared = renderer.prepare(camera, Refine::kAll); !prepared) return prepared.error();
   progress.stage("tracing");
   const Result<Frame> frame = renderer.trace(camera, progress.share());
   if (!frame) return frame.error();
@@ -100,7 +100,6 @@ Status run(CellsArguments& a) {
   const Result<Read> read = load(a.file, a.loading);
   if (!read) return read.error();
   RunTimes times{.read = milliseconds_since(start)};
-  a.renderer.eager = true;
   apply(a.subdivision, a.renderer);
   a.shading.background = !a.no_background;
   Result<Renderer> renderer = Renderer::make(read->model, a.renderer);
