@@ -1,5 +1,4 @@
 // whittle: the program. The first argument names a command; without one, it renders.
-#include <malloc.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -8,6 +7,10 @@
 #include <new>
 #include <stdexcept>
 #include <vector>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "commands.h"
 #include "console.h"
@@ -52,9 +55,11 @@ int run_guarded(Arguments arguments) {
 /// What one picture took is kept for the next: to get memory from the system again, page by page,
 /// can take longer than tracing.
 void keep_memory() {
+#ifdef __GLIBC__
   constexpr int kMostBlock = 1 << 25, kMostKept = 1 << 28;
   ::mallopt(M_MMAP_THRESHOLD, kMostBlock);
   ::mallopt(M_TRIM_THRESHOLD, kMostKept);
+#endif
 }
 
 /// For what no one can catch: a thread that oneTBB cannot start ends the program from within it.
