@@ -66,6 +66,25 @@ TEST_F(Vulkan, BenchHasThePapersQuantities) {
   EXPECT_NE(table.out.find("ms cells refined while drawn"), std::string::npos) << table.out;
 }
 
+TEST_F(Vulkan, ShadersAndCullingDoNotShow) {
+  const std::vector<std::string> plain{
+      "part.csg", "--backend", "vulkan-raster", "--imgsize", "48,36", "--stats", "-o"};
+  const auto with = [&](const std::string& out, std::vector<std::string> more) {
+    more.insert(more.begin(), plain.begin(), plain.end());
+    more.insert(more.begin() + std::ptrdiff_t(plain.size()), out);
+    const Ended made = run(more);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return made.err;
+  };
+  // Of 48 x 36 pixels, few cells, all in view.
+  EXPECT_NE(with("x.exr", {}).find("cells in view"), std::string::npos);
+  with("y.exr", {"--shaders", "unified"});
+  EXPECT_NE(with("z.exr", {"--culling", "off"}).find("in view, 0 of them because"),
+            std::string::npos);
+  EXPECT_EQ(read("x.exr"), read("y.exr"));
+  EXPECT_EQ(read("x.exr"), read("z.exr"));
+}
+
 TEST_F(Vulkan, DevicesAreListedAndChosen) {
   const Ended list = run({"devices"});
   EXPECT_EQ(list.exit_code, 0) << list.err;

@@ -94,8 +94,8 @@ class RasterTracerImpl final : public RasterTracer {
         RasterStats unused;
         status_ = trace_tile(camera, tile, &layer, unused, nullptr);
         if (!status_) return std::fill(hits.begin(), hits.end(), Hit{});
-        for (const ProbeLayer::Place& place : layer.places)
-          hits[place.position] = drawer_.hits()[place.pixel];
+        for (size_t i = 0; i < layer.places.size(); ++i)
+          hits[layer.places[i].position] = drawer_.hits()[i];
       }
     }
   }

@@ -116,6 +116,11 @@ Status TileDrawer::resize(int width, int height) {
                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Placement::kDevice);
       !done)
     return done;
+  if (Status done = make_buffer(places_, (pixels + 1) * sizeof(uint32_t),
+                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Placement::kUpload);
+      !done)
+    return done;
+  bindings_->bind(kPlacesBinding, places_);
   bindings_->bind(kPyramidBinding, pyramid_);
   bindings_->bind(kDepthsBinding, depth_);
   bindings_->bind(kPositionsBinding, positions_);
@@ -164,6 +169,9 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
     std::memcpy(positions_.buffer.mapped(), layer->positions.data(),
                 layer->positions.size() * sizeof(PixelPosition));
     std::memcpy(asked_.mapped(), layer->depth.data(), layer->depth.size() * sizeof(float));
+    auto* to = static_cast<uint32_t*>(places_.mapped());
+    *to++ = uint32_t(layer->places.size());
+    for (const ProbeLayer::Place& place : layer->places) *to++ = place.pixel;
   }
   if (!part.is_last && seen_copy_.bytes() == 0) {
     const VkDeviceSize pixels = VkDeviceSize(width_) * VkDeviceSize(height_);
@@ -186,7 +194,7 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
   }
   if (!part.is_last) record_copy_of_seen(*recording);
   commands_->stamp();
-  if (part.is_last || part.wants_hits) record_resolving(*recording);
+  if (part.is_last || part.wants_hits) record_resolving(*recording, layer);
   commands_->stamp();
   if (Status done = commands_->run(); !done) return done;
   const std::vector<double> times = commands_->intervals();
@@ -281,12 +289,16 @@ void TileDrawer::record_copy_of_seen(VkCommandBuffer commands) {
                 VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
 
-void TileDrawer::record_resolving(VkCommandBuffer commands) {
+void TileDrawer::record_resolving(VkCommandBuffer commands, const ProbeLayer* layer) {
   gpu::change_use(commands, seen_.handle(), seen_.aspect(), seen_use_, kResolved);
   seen_use_ = kResolved;
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_->pipelines().resolve.get());
   bindings_->use(commands, VK_PIPELINE_BIND_POINT_COMPUTE);
-  vkCmdDispatch(commands, groups(width_), groups(height_), 1);
+  constexpr uint32_t kGroup = kGroupSide * kGroupSide;
+  if (layer != nullptr)
+    vkCmdDispatch(commands, (uint32_t(layer->places.size()) + kGroup - 1) / kGroup, 1, 1);
+  else
+    vkCmdDispatch(commands, groups(width_), groups(height_), 1);
   gpu::wait_for(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                 VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT,
                 VK_ACCESS_2_HOST_READ_BIT);

@@ -32,7 +32,7 @@ class TileDrawer {
   Status draw(const ViewData& view, std::span<const VisibleCell> cells, size_t cell_count,
               const ProbeLayer* layer, RasterStats& stats, const DrawPart& part = {});
 
-  /// Row by row, until the next draw().
+  /// Row by row, or in the order of the layer's places; until the next draw().
   const Hit* hits() const { return static_cast<const Hit*>(hits_.mapped()); }
   /// After a part that is not the last: for each pixel 0 if it has not seen a cell yet.
   std::span<const uint32_t> seen() const {
@@ -48,7 +48,7 @@ class TileDrawer {
   /// `is_first`: nothing has been drawn. `has_depth`: or shut.
   void record_drawing(VkCommandBuffer commands, DrawList::Pass pass, bool is_first, bool has_depth);
   void record_copy_of_seen(VkCommandBuffer commands);
-  void record_resolving(VkCommandBuffer commands);
+  void record_resolving(VkCommandBuffer commands, const ProbeLayer* layer);
 
   const gpu::Device& gpu() const { return device_->gpu(); }
   Status make_buffer(gpu::Buffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage,
@@ -62,6 +62,7 @@ class TileDrawer {
   uint32_t picture_ = 0;
   gpu::Buffer pyramid_;
   ReadBuffer positions_;  ///< where in the picture each pixel looks, if there is a layer
+  gpu::Buffer places_;    ///< how many of them do, and which
   gpu::Buffer asked_;     ///< and depths that shut the pixels of which nothing is asked
   gpu::Image seen_, depth_;
   gpu::ImageUse seen_use_{};  ///< what the last commands did with it
