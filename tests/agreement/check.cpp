@@ -63,6 +63,7 @@ int run(int argc, char** argv) {
   std::vector<std::string> files;
   RasterSettings settings;
   settings.validate = true;
+  settings.first_batch_ms = 0;
   bool wants_raster = false;
   for (int i = 1; i < argc; ++i) {
     if (!std::strcmp(argv[i], "--seeds") && i + 1 < argc)
