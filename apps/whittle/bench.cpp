@@ -23,6 +23,7 @@
 #include "oracle_check.h"
 #include "statistics.h"
 #include "trace/oracle/oracle.h"
+#include "trace/vulkan/raster.h"
 #include "whittle/output.h"
 
 namespace whittle {
@@ -71,6 +72,56 @@ double median(std::vector<double> values) {
   const size_t middle = values.size() / 2;
   return values.size() % 2 != 0 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
+
+/// What is measured of the backend that draws cells, and of no other: the paper's quantities
+/// (section 4.1) and what they are compared with.
+struct RasterTimes {
+  std::vector<double> set_up, render, stream, in_turn, send, first;
+  RasterStats streamed, rendered;
+
+  bool are_there() const { return !render.empty(); }
+
+  /// All cells have just been made.
+  Status measure_in_turn(Renderer& renderer, const Camera& camera) {
+    auto* const raster = dynamic_cast<RasterTracer*>(&renderer.tracer());
+    if (raster == nullptr) return Done{};
+    const StageTimes& times = renderer.times();
+    if (const Result<Frame> frame = renderer.trace(camera); !frame) return frame.error();
+    send.push_back(times.send);
+    in_turn.push_back(times.subdivide + times.send + times.trace);
+    if (const Result<Frame> frame = renderer.trace(camera); !frame) return frame.error();
+    render.push_back(times.trace);
+    rendered = raster->stats();
+    const Stopwatch watch;
+    raster->set_up(camera);
+    set_up.push_back(watch.milliseconds());
+    return raster->status();
+  }
+
+  /// A picture has just been made of cells that were not there: it took so long.
+  void note_stream(Renderer& renderer, double milliseconds) {
+    auto* const raster = dynamic_cast<RasterTracer*>(&renderer.tracer());
+    if (raster == nullptr) return;
+    stream.push_back(milliseconds);
+    streamed = raster->stats();
+    first.push_back(streamed.first_ms);
+  }
+
+  void tell(const std::vector<double>& subdivide, Json& json) const {
+    json["paper_ms"] = {{"S", median(subdivide)},
+                        {"T_S", median(set_up)},
+                        {"T_R", median(render)},
+                        {"S_R", median(stream)}};
+    json["send_ms"] = median(send);
+    json["in_turn_ms"] = median(in_turn);
+    json["stream_first_ms"] = median(first);
+    json["stream_batches"] = streamed.batches;
+    json["stream_cells"] = streamed.cells;
+    json["order_ms"] = rendered.order_ms;
+    json["draw_ms"] = rendered.draw_ms;
+    json["resolve_ms"] = rendered.resolve_ms;
+  }
+};
 
 /// Looks at a coarse grid of places with the tracer to be measured and with the oracle.
 Status check(const std::string& file, const Model& model, const Camera& camera, Renderer& renderer,
@@ -121,28 +172,36 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   const Camera camera = renderer->camera(a.view);
   if (Status prepared = renderer->prepare(camera); !prepared) return prepared.error();
   TraceStats stats;
+  SubdivideStats cells, looked_at;
+  const auto statistics = [&] {
+    return renderer->cells() != nullptr ? statistics_of(*renderer->cells()) : SubdivideStats{};
+  };
+  RasterTimes raster_times;
   for (int i = 0; i < a.repeat; ++i) {
+    renderer->discard();
+    if (Status done = renderer->prepare(camera, Refine::kAll); !done) return done.error();
+    subdivide.push_back(renderer->times().subdivide);
+    cells = statistics();
+    if (Status done = raster_times.measure_in_turn(*renderer, camera); !done) return done.error();
+
+    // To free the old cells is no part of any stage.
+    renderer->discard();
     const Stopwatch watch;
     if (Status prepared = renderer->prepare(camera); !prepared) return prepared.error();
     const Result<Frame> frame = renderer->trace(camera);
     if (!frame) return frame.error();
+    raster_times.note_stream(*renderer, watch.milliseconds());
     const Result<Picture> picture = renderer->shade(*frame, camera, ShadeSettings{}, 1);
     if (!picture) return picture.error();
     cold.push_back(watch.milliseconds());
     shade.push_back(renderer->times().shade);
     stats = renderer->trace_stats();
+    looked_at = statistics();
     // Again, now that all the cells that it needs are there.
     if (const Result<Frame> again = renderer->trace(camera); !again) return again.error();
     trace.push_back(renderer->times().trace);
   }
-  RendererSettings all_cells = a.renderer;
-  all_cells.eager = true;
-  Result<Renderer> eager = Renderer::make(read->model, all_cells);
-  if (!eager) return eager.error();
-  for (int i = 0; i < a.repeat; ++i) {
-    if (Status prepared = eager->prepare(camera); !prepared) return prepared.error();
-    subdivide.push_back(eager->times().subdivide);
-  }
+  if (raster_times.are_there()) trace = raster_times.render;
 
   json["backend"] = name_of(backend_choices(), renderer->backend());
   json["width"] = camera.width;
@@ -158,10 +217,6 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   json["peak_memory_bytes"] = peak_memory_bytes();
   // The oracle has neither cells nor half-spaces, and what it does for a ray is always all.
   const Scene* scene = renderer->scene();
-  const SubdivideStats cells =
-      eager->cells() != nullptr ? statistics_of(*eager->cells()) : SubdivideStats{};
-  const SubdivideStats looked_at =
-      renderer->cells() != nullptr ? statistics_of(*renderer->cells()) : SubdivideStats{};
   const auto rays = uint64_t(camera.width) * uint64_t(camera.height);
   json["half_spaces"] = scene != nullptr ? scene->half_spaces.size() : 0;
   json["cells"] = cells.cell_count();
@@ -173,6 +228,11 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   json["leaf_visits_per_ray"] = double(stats.leaves) / double(rays);
   json["literals_per_ray"] = double(stats.literals) / double(rays);
   json["million_rays_per_second"] = double(rays) / median(trace) / 1000;
+  if (raster_times.are_there()) {
+    raster_times.tell(subdivide, json);
+  } else if (scene != nullptr) {
+    json["paper_ms"] = {{"S", median(subdivide)}, {"T", median(trace)}, {"cold", median(cold)}};
+  }
   if (auto* cpu = dynamic_cast<CpuTracer*>(&renderer->tracer())) {
     // What is left of a frame when no ray has to look for its leaf.
     cpu->record(camera);
@@ -233,7 +293,7 @@ int measure_apart(const std::string& file, const BenchArguments& a, Json& json) 
   return WEXITSTATUS(status);
 }
 
-std::string describe(const Json& m) {
+std::string table_of(const Json& m) {
   std::string text;
   const auto number = [&](const char* name) { return m[name].get<double>(); };
   const auto count = [&](const char* name) { return m[name].get<uint64_t>(); };
@@ -244,6 +304,15 @@ std::string describe(const Json& m) {
   for (const char* stage : {"parse", "lower", "subdivide", "trace", "shade", "cold"}) {
     fmt::format_to(out, "  {:<12}{:>10.2f} ms\n", stage,
                    number(fmt::format("{}_ms", stage).c_str()));
+  }
+  if (m.contains("in_turn_ms")) {
+    const Json& paper = m["paper_ms"];
+    fmt::format_to(out,
+                   "  {:<12}{:>10.2f} ms cells refined while drawn, the first after {:.2f} ms; all "
+                   "before {:.2f} ms\n"
+                   "  {:<12}{:>10.2f} ms without drawing\n",
+                   "stream", paper["S_R"].get<double>(), number("stream_first_ms"),
+                   number("in_turn_ms"), "set up", paper["T_S"].get<double>());
   }
   fmt::format_to(out, "  {:<12}{:>10}\n", "half-spaces", count("half_spaces"));
   fmt::format_to(out, "  {:<12}{:>10}    {} leaves, {}; rays met {}\n", "cells", count("cells"),
@@ -292,7 +361,7 @@ int bench_command(Arguments arguments) {
     if (const int code = measure_apart(file, a, measured); code != kExitDone) return code;
     if (a.wants_json) {
       all.push_back(std::move(measured));
-    } else if (const int code = print(describe(measured)); code != kExitDone) {
+    } else if (const int code = print(table_of(measured)); code != kExitDone) {
       return code;
     }
   }

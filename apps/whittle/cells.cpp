@@ -63,6 +63,7 @@ void add_options(CommandLine& line, CellsArguments& a) {
   look.add_choice("--style", style_choices(), "style", "{}",
                   [&](Style style) { a.shading.style = style; });
   add_color_options(app, a.shading);
+  add_shadow_option(app, a.shading);
   look.add_flag("--no-background", a.no_background, "what is not hit is transparent");
   add_loading_options(app, a.loading);
   add_machine_options(app, a.renderer, a.without_effect);
@@ -73,7 +74,7 @@ void add_options(CommandLine& line, CellsArguments& a) {
 Result<Picture> draw(const CellsArguments& a, Renderer& renderer) {
   ProgressLine progress(!a.loading.quiet, "subdividing");
   const Camera camera = renderer.camera(a.view);
-  if (Status prepared = renderer.prepare(camera); !prepared) return prepared.error();
+  if (Status prepared = renderer.prepare(camera, Refine::kAll); !prepared) return prepared.error();
   progress.stage("tracing");
   const Result<Frame> frame = renderer.trace(camera, progress.share());
   if (!frame) return frame.error();
@@ -92,13 +93,13 @@ Status run(CellsArguments& a) {
   if (a.renderer.backend == Backend::kOracle) {
     return Error{ErrorKind::kUsage, "backend oracle has no cells"};
   }
+  if (Status possible = check_shadows(a.shading); !possible) return possible;
   if (Status possible = check_writable(a.output); !possible) return possible;
   if (!a.loading.quiet) say_without_effect(a.without_effect);
   suit_style(a.shading.style, a.loading);
   const Result<Read> read = load(a.file, a.loading);
   if (!read) return read.error();
   RunTimes times{.read = milliseconds_since(start)};
-  a.renderer.eager = true;
   apply(a.subdivision, a.renderer);
   a.shading.background = !a.no_background;
   Result<Renderer> renderer = Renderer::make(read->model, a.renderer);

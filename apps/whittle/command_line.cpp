@@ -113,6 +113,12 @@ void add_color_options(CLI::App& app, ShadeSettings& shading) {
                  });
 }
 
+void add_shadow_option(CLI::App& app, ShadeSettings& shading) {
+  OptionGroup(app, "Look")
+      .add_flag("--shadows", shading.shadows,
+                "lights reach only what they see (not in style openscad)");
+}
+
 void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffect& without_effect) {
   OptionGroup group(app, "Machine");
   group.add_text("--backend", "NAME",
@@ -134,6 +140,10 @@ void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffec
   group.add_choice("--shaders", shaders_choices(), "kind of shaders",
                    "of vulkan-raster: {}; one for\neach case of cells, or one for all",
                    [&](ShaderCases shaders) { settings.shaders = shaders; });
+  group.add_choice(
+      "--culling", culling_choices(), "kind of culling",
+      "of vulkan-raster: {}; whether cells\nbehind others are left out, for measurements",
+      [&](bool culling) { settings.culling = culling; });
   group.add_count("--threads", "N", settings.threads, 0, kMostThreads,
                   "0 (all) to 1024; the picture is the same");
 }

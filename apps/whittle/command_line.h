@@ -36,6 +36,9 @@ void add_view_options(CLI::App& app, ViewOptions& view);
 /// --colorscheme and --light.
 void add_color_options(CLI::App& app, ShadeSettings& shading);
 
+/// --shadows.
+void add_shadow_option(CLI::App& app, ShadeSettings& shading);
+
 /// Options of OpenSCAD's that are taken without effect.
 struct WithoutEffect {
   std::vector<std::string> missed;  ///< those given that a user may wonder about

@@ -8,6 +8,10 @@
 #include <stdexcept>
 #include <vector>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "commands.h"
 #include "console.h"
 #include "io/pending_files.h"
@@ -48,6 +52,16 @@ int run_guarded(Arguments arguments) {
   }
 }
 
+/// What one picture took is kept for the next: to get memory from the system again, page by page,
+/// can take longer than tracing.
+void keep_memory() {
+#ifdef __GLIBC__
+  constexpr int kMostBlock = 1 << 25, kMostKept = 1 << 28;
+  ::mallopt(M_MMAP_THRESHOLD, kMostBlock);
+  ::mallopt(M_TRIM_THRESHOLD, kMostKept);
+#endif
+}
+
 /// For what no one can catch: a thread that oneTBB cannot start ends the program from within it.
 [[noreturn]] void end_clearly() {
   // Several threads may get here at once; the first one speaks for all.
@@ -70,6 +84,7 @@ int run_guarded(Arguments arguments) {
 int main(int argc, char** argv) {
   whittle::prepare_for_interruption();
   std::set_terminate(whittle::end_clearly);
+  whittle::keep_memory();
   whittle::limit_memory(whittle::physical_memory());
   const std::vector<const char*> arguments(argv + (argc > 0), argv + argc);
   return whittle::run_guarded(arguments);

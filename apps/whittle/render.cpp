@@ -82,6 +82,7 @@ void add_options(CommandLine& line, RenderArguments& a) {
   look.add_choice("--style", style_choices(), "style", "{}",
                   [&](Style style) { a.shading.style = style; });
   add_color_options(app, a.shading);
+  add_shadow_option(app, a.shading);
   look.add_count("--aa", "N", a.antialias, 1, kMostAntialias,
                  "N x N rays a pixel at edges, 1 to 16 (studio: 4)");
   look.add_flag("--no-background", a.no_background, "what is not hit is transparent");
@@ -155,6 +156,7 @@ Status render(RenderArguments& a) {
   const auto start = Clock::now();
   const Result<std::vector<Output>> outputs = choose_outputs(a);
   if (!outputs) return outputs.error();
+  if (Status possible = check_shadows(a.shading); !possible) return possible;
   for (const Output& output : *outputs) {
     if (Status possible = check_writable(output.path); !possible) return possible;
   }

@@ -70,6 +70,7 @@ struct RenderOptions {
   std::string style = "studio";  ///< "studio", "blinn" or "openscad"
   std::string color_scheme;      ///< one of OpenSCAD's; empty: the style's own
   std::optional<Point> light;    ///< "blinn": where the light stands; unset: at the eye
+  bool shadows = false;          ///< lights reach only what they see; not with "openscad"
   bool background = true;        ///< false: what is not hit is transparent
   int antialias = 0;             ///< n * n rays a pixel at edges, 1 to 16; 0: what suits the style
 

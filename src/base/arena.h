@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -67,9 +68,7 @@ class BlockPool {
   static constexpr size_t kAlignment = 16, kSmallest = 5, kClasses = 48;
 
   static size_t class_of(size_t bytes) {
-    size_t size_class = kSmallest;
-    while ((size_t(1) << size_class) < bytes) ++size_class;
-    return size_class;
+    return std::max(kSmallest, bytes == 0 ? 0 : size_t(std::bit_width(bytes - 1)));
   }
   void push(void* block, size_t size_class) {
     free_[size_class] = ::new (block) Free{free_[size_class]};

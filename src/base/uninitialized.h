@@ -1,11 +1,13 @@
 // Arrays whose elements are not set when they are made: filling a picture with zeros first, on one
-// thread, costs as much as making it on all.
+// thread, costs as much as making it on all. Large ones are in large pages.
 #pragma once
 
 #include <memory>
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "base/large_pages.h"
 
 namespace whittle {
 
@@ -16,6 +18,11 @@ struct UninitializedAllocator : std::allocator<T> {
   struct rebind {
     using other = UninitializedAllocator<U>;
   };
+  T* allocate(size_t n) {
+    T* const memory = std::allocator<T>::allocate(n);
+    prefer_large_pages(memory, n * sizeof(T));
+    return memory;
+  }
   template <class U>
   void construct(U*) noexcept {
     static_assert(std::is_trivially_copyable_v<U>);  // so that it is there without being made

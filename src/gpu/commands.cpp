@@ -104,10 +104,10 @@ std::vector<double> Commands::intervals() const {
 }
 
 Status upload(const Device& device, Commands& commands, Buffer& to,
-              std::span<const std::byte> bytes) {
+              std::span<const std::byte> bytes, VkDeviceSize at) {
   if (bytes.empty()) return Done{};
   if (to.mapped() != nullptr) {
-    std::memcpy(to.mapped(), bytes.data(), bytes.size());
+    std::memcpy(static_cast<std::byte*>(to.mapped()) + at, bytes.data(), bytes.size());
     return Done{};
   }
   const Result<Buffer> from =
@@ -116,7 +116,7 @@ Status upload(const Device& device, Commands& commands, Buffer& to,
   std::memcpy(from->mapped(), bytes.data(), bytes.size());
   Result<VkCommandBuffer> recording = commands.begin();
   if (!recording) return recording.error();
-  const VkBufferCopy copy{0, 0, bytes.size()};
+  const VkBufferCopy copy{0, at, bytes.size()};
   vkCmdCopyBuffer(*recording, from->handle(), to.handle(), 1, &copy);
   wait_for(*recording, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
            VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT);

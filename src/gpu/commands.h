@@ -34,10 +34,10 @@ class Commands {
   uint32_t most_stamps_ = 0, stamps_ = 0;
 };
 
-/// Copies bytes to the start of a buffer, which has room for them and, unless the host reaches it,
-/// VK_BUFFER_USAGE_TRANSFER_DST_BIT. Done when it returns.
+/// Copies bytes into a buffer, from byte `at` on, which has room for them and, unless the host
+/// reaches it, VK_BUFFER_USAGE_TRANSFER_DST_BIT. Done when it returns.
 Status upload(const Device& device, Commands& commands, Buffer& to,
-              std::span<const std::byte> bytes);
+              std::span<const std::byte> bytes, VkDeviceSize at = 0);
 
 /// All that `before` wrote is there for `after` to read.
 void wait_for(VkCommandBuffer commands, VkPipelineStageFlags2 before, VkAccessFlags2 wrote,

@@ -72,7 +72,6 @@ Result<std::unique_ptr<Device>> Device::open(const DeviceOptions& options) {
   device->properties_ = candidate.properties;
   device->queue_family_ = candidate.queue_family;
   device->timestamp_bits_ = candidate.timestamp_bits;
-  device->can_draw_many_indirect_ = candidate.can_draw_many_indirect;
   vkGetPhysicalDeviceMemoryProperties(candidate.physical, &device->memory_);
 
   const float priority = 1;
@@ -88,8 +87,6 @@ Result<std::unique_ptr<Device>> Device::open(const DeviceOptions& options) {
   features13.maintenance4 = VK_TRUE;  // what glslc writes of a workgroup's size needs it
   VkPhysicalDeviceFeatures features{};
   features.shaderFloat64 = candidate.info.float64;
-  features.multiDrawIndirect = candidate.can_draw_many_indirect;
-  features.drawIndirectFirstInstance = candidate.can_draw_many_indirect;
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.pNext = &features13;

@@ -33,8 +33,6 @@ class Device {
   const DeviceInfo& info() const { return info_; }
   const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
   const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
-  /// Whether one call can draw many times, with parameters from a buffer.
-  bool can_draw_many_indirect() const { return can_draw_many_indirect_; }
   /// Significant bits of a timestamp; 0: the queue has none.
   uint32_t timestamp_bits() const { return timestamp_bits_; }
 
@@ -61,7 +59,6 @@ class Device {
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   uint32_t queue_family_ = 0, timestamp_bits_ = 0;
-  bool can_draw_many_indirect_ = false;
   VkPhysicalDeviceProperties properties_{};
   VkPhysicalDeviceMemoryProperties memory_{};
   DeviceInfo info_;

@@ -84,8 +84,6 @@ Candidate describe(VkPhysicalDevice physical) {
   VkPhysicalDeviceFeatures features;
   vkGetPhysicalDeviceFeatures(physical, &features);
   c.info.float64 = features.shaderFloat64 != 0;
-  c.can_draw_many_indirect =
-      features.multiDrawIndirect != 0 && features.drawIndirectFirstInstance != 0;
   if (c.properties.apiVersion < VK_API_VERSION_1_3) {
     c.info.shortcoming =
         "Vulkan 1.3 is needed, and it has " + version_text(c.properties.apiVersion);

@@ -14,7 +14,6 @@ namespace whittle::gpu {
 struct Candidate {
   VkPhysicalDevice physical;
   VkPhysicalDeviceProperties properties;
-  bool can_draw_many_indirect;
   uint32_t queue_family, timestamp_bits;  ///< of the queue that can draw and compute
   DeviceInfo info;
 };

@@ -5,6 +5,7 @@
 
 #include "base/result.h"
 #include "image/edge_lanes.h"
+#include "image/shadows.h"
 
 namespace whittle {
 namespace {
@@ -13,6 +14,8 @@ namespace {
 /// the processor's caches.
 constexpr size_t kSamplesPerBatch = size_t(1) << 16;
 constexpr size_t kPixelsPerTask = 64;
+/// Each batch of hits is looked at from every light; many at a time, for backends that draw.
+constexpr size_t kShadowsPerBatch = size_t(1) << 20;
 
 /// Where the mask is set, in order.
 std::vector<size_t> set_places(const std::vector<uint8_t>& mask) {
@@ -20,6 +23,43 @@ std::vector<size_t> set_places(const std::vector<uint8_t>& mask) {
   for (auto at = mask.begin(); (at = std::find(at, mask.end(), 1)) != mask.end(); ++at)
     places.push_back(size_t(at - mask.begin()));
   return places;
+}
+
+/// The shadows of a frame, one a pixel.
+std::vector<uint8_t> shadows_of(const Frame& frame, Shadows& finder) {
+  std::vector<uint8_t> shadows, some;
+  shadows.reserve(frame.hits.size());
+  std::vector<PixelPosition> places;
+  const size_t width = size_t(frame.width);
+  const size_t rows = std::max<size_t>(1, kShadowsPerBatch / width);
+  for (size_t y = 0; y < size_t(frame.height); y += rows) {
+    const size_t last = std::min(y + rows, size_t(frame.height));
+    places.clear();
+    for (size_t row = y; row < last; ++row)
+      for (size_t x = 0; x < width; ++x) places.push_back({float(x) + 0.5f, float(row) + 0.5f});
+    finder.find(std::span(frame.hits).subspan(y * width, places.size()), places, some);
+    shadows.insert(shadows.end(), some.begin(), some.end());
+  }
+  return shadows;
+}
+
+/// Adds to the mask the pixels that are lit otherwise than one of their eight neighbours.
+void add_shadow_edges(const std::vector<uint8_t>& shadows, size_t width,
+                      std::vector<uint8_t>& mask) {
+  const size_t height = shadows.size() / width;
+  const auto compare = [&](size_t a, size_t b) {
+    if (shadows[a] != shadows[b]) mask[a] = mask[b] = 1;
+  };
+  for (size_t y = 0; y < height; ++y) {
+    for (size_t x = 0; x < width; ++x) {
+      const size_t at = y * width + x;
+      if (x + 1 < width) compare(at, at + 1);
+      if (y + 1 == height) continue;
+      compare(at, at + width);
+      if (x > 0) compare(at, at + width - 1);
+      if (x + 1 < width) compare(at, at + width + 1);
+    }
+  }
 }
 
 /// What a task that makes pixels of samples works with.
@@ -85,10 +125,15 @@ std::vector<uint8_t> edge_mask(const Frame& frame, const Camera& camera, const W
 Picture shade_antialiased(Tracer& tracer, const Camera& camera, const Frame& frame,
                           std::span<const Appearance> appearances, const ShadeSettings& settings,
                           int n, const Workers& workers) {
-  Picture picture = shade(frame, camera, appearances, settings, workers);
+  Shadows finder(tracer, camera, settings, workers);
+  std::vector<uint8_t> shadows;
+  if (settings.shadows) shadows = shadows_of(frame, finder);
+  Picture picture = shade(frame, camera, appearances, settings, workers, shadows);
   if (n <= 1) return picture;
   const Shader shader(camera, appearances, settings);
-  const std::vector<size_t> edges = set_places(edge_mask(frame, camera, workers));
+  std::vector<uint8_t> mask = edge_mask(frame, camera, workers);
+  if (settings.shadows) add_shadow_edges(shadows, size_t(frame.width), mask);
+  const std::vector<size_t> edges = set_places(mask);
 
   const size_t samples = size_t(n) * size_t(n), width = size_t(frame.width);
   const size_t batch = std::max<size_t>(1, kSamplesPerBatch / samples);
@@ -109,12 +154,15 @@ Picture shade_antialiased(Tracer& tracer, const Camera& camera, const Frame& fra
     }
     hits.assign(positions.size(), Hit{});
     tracer.probe(camera, positions, hits);
+    if (settings.shadows) finder.find(hits, positions, shadows);
     workers.for_parts(count, kPixelsPerTask, [&](size_t begin, size_t end, size_t worker) {
       MeanScratch& own = scratch.of(worker);
       const auto of_part = [&](auto& all) {
-        return std::span(all).subspan(begin * samples, (end - begin) * samples);
+        return std::span(std::as_const(all)).subspan(begin * samples, (end - begin) * samples);
       };
-      shader.samples(of_part(hits), of_part(positions), own.seen, own.samples);
+      shader.samples(of_part(hits), of_part(positions),
+                     settings.shadows ? of_part(shadows) : std::span<const uint8_t>(), own.seen,
+                     own.samples);
       find_means(own.samples, samples, own.means);
       own.rgba.resize(4 * own.means.size);
       shader.store(own.means, own.rgba.data());

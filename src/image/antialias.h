@@ -19,7 +19,8 @@ std::vector<uint8_t> edge_mask(const Frame& frame, const Camera& camera, const W
 /// shade(), but pixels at edges are the mean of n * n samples on a regular grid. Linear light is
 /// averaged in the studio style; the others define display values and know no light, so there those
 /// are averaged, as OpenGL's multisampling does. Without background the colour is the mean of the
-/// samples that hit, and alpha their share. Deterministic; n <= 1 is shade().
+/// samples that hit, and alpha their share. With shadows, their edges are edges too. Deterministic;
+/// n <= 1 is shade().
 Picture shade_antialiased(Tracer& tracer, const Camera& camera, const Frame& frame,
                           std::span<const Appearance> appearances, const ShadeSettings& settings,
                           int n, const Workers& workers);

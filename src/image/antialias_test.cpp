@@ -250,5 +250,35 @@ TEST(Antialias, IsTheSameOnOneThread) {
   EXPECT_EQ(shade_antialiased(tracer, camera, frame, {}, {}, 4, Workers(1)).rgba, p.rgba);
 }
 
+TEST(Antialias, TheEdgeOfAShadowIsAnEdge) {
+  // A plane, and 10 above it, out of sight behind the eye, a lid over x < 0.3. Light falls straight
+  // down.
+  FunctionTracer tracer([](const Ray& ray) -> Hit {
+    for (const double z : {60.0, 0.0}) {
+      const double t = (z - ray.origin.z) / ray.direction.z;
+      const double x = ray.origin.x + t * ray.direction.x;
+      if (t > ray.t_min && (z == 0 || x < 0.3)) return {float(t), 1, {0, 0, 1}};
+    }
+    return {};
+  });
+  Camera camera = top_camera(8, 8);
+  camera.ortho_reach = 0;
+  ShadeSettings settings;
+  settings.style = Style::kBlinn;
+  settings.light = Vec3{0, 0, 1e6};
+  settings.shadows = true;
+  settings.casters = {{-10, -10, -1}, {10, 10, 61}};
+  const Frame frame = tracer.render(camera, {});
+  const Picture hard = shade_antialiased(tracer, camera, frame, {}, settings, 1, kWorkers);
+  const Picture soft = shade_antialiased(tracer, camera, frame, {}, settings, 4, kWorkers);
+  const int dark = hard.at(3, 4)[1], lit = hard.at(5, 4)[1];
+  EXPECT_GT(lit, 2 * dark);
+  EXPECT_EQ(hard.at(4, 4)[1], lit) << "its middle is at 0.5";
+  // The samples at 0.125 are in shadow, those at 0.375, 0.625 and 0.875 are not.
+  EXPECT_NEAR(soft.at(4, 4)[1], 0.25 * dark + 0.75 * lit, 2);
+  EXPECT_NEAR(soft.at(3, 4)[1], dark, 1);
+  EXPECT_NEAR(soft.at(5, 4)[1], lit, 1);
+}
+
 }  // namespace
 }  // namespace whittle

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 
 // This file is compiled once for every instruction set; see foreach_target.h.
 #undef HWY_TARGET_INCLUDE
@@ -40,19 +41,19 @@ HWY_INLINE void store3(Real3 v, EdgeRow& row, EdgeRow::Column first, size_t at) 
 
 void look_in_lanes(const PixelRays& rays, std::span<const Hit> hits, int y, EdgeRow& row) {
   uint32_t* ids = &row.ids[EdgeRow::kBefore];
-  for (size_t x = 0; x < hits.size(); ++x) ids[x] = hits[x].id;
   const Real py = set(float(y) + 0.5f);
   const float step = kDepthStepPixels * rays.units_per_pixel;
   for (size_t x = 0; x < hits.size(); x += hn::Lanes(D())) {
-    if (hn::AllTrue(DU(), hn::Eq(hn::LoadU(DU(), ids + x), hn::Zero(DU())))) continue;
     const size_t count = std::min(hits.size() - x, hn::Lanes(D())), at = EdgeRow::kBefore + x;
+    const HitLanes seen = load_hits(&hits[x], count);
+    hn::StoreU(seen.id, DU(), ids + x);
+    if (hn::AllTrue(DU(), hn::Eq(seen.id, hn::Zero(DU())))) continue;
     const Real px = hn::Add(hn::Iota(D(), float(x)), set(0.5f));
-    const Real distance = load_distances(&hits[x], count);
     const Real3 direction = ray_direction(rays, px, py);
-    store3(load_normals(&hits[x], count), row, EdgeRow::kNormalX, at);
+    store3(seen.normal, row, EdgeRow::kNormalX, at);
     store3(direction, row, EdgeRow::kDirectionX, at);
-    store3(ray_point(rays, direction, distance, px, py), row, EdgeRow::kPointX, at);
-    hn::StoreU(rays.orthographic ? set(step) : hn::Mul(set(step), distance), D(),
+    store3(ray_point(rays, direction, seen.distance, px, py), row, EdgeRow::kPointX, at);
+    hn::StoreU(rays.orthographic ? set(step) : hn::Mul(set(step), seen.distance), D(),
                &row.columns[EdgeRow::kStep][at]);
   }
 }

@@ -73,19 +73,45 @@ HWY_INLINE Real3 ray_point(const PixelRays& rays, Real3 direction, Real distance
   return rays.orthographic ? add(picture_offset(rays, px, py), along) : along;
 }
 
-/// How far each of the hits is from the first, in words of four bytes; lanes beyond `count` repeat
-/// the last.
-HWY_INLINE Int places_of_hits(size_t count) {
-  constexpr int32_t kWords = sizeof(Hit) / 4;
-  static_assert(sizeof(Hit) % 4 == 0);
-  const Int lane = hn::Min(hn::Iota(DI(), 0), hn::Set(DI(), int32_t(count) - 1));
-  return hn::Mul(lane, hn::Set(DI(), kWords));
+/// Hits, a lane each.
+struct HitLanes {
+  Word id;
+  Real distance;
+  Real3 normal;
+};
+
+/// Of as many hits as there are lanes.
+HWY_INLINE HitLanes load_all_hits(const Hit* hits) {
+  constexpr uint32_t kWords = 5;
+  static_assert(sizeof(Hit) == kWords * sizeof(uint32_t) && offsetof(Hit, distance) == 0 &&
+                offsetof(Hit, id) == 4 && offsetof(Hit, normal) == 8);
+  const auto lanes = uint32_t(hn::Lanes(DU()));
+  // Word w of hit i is the (5 i + w)th of five vectors in a row. As 5 and the number of lanes have
+  // no common factor, each lane of these holds word w once: they are merged, then put in order.
+  alignas(64) constexpr uint32_t kRests[] = {0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0, 1, 2, 3, 4, 0};
+  static_assert(std::size(kRests) == kMostFloatLanes);
+  const Word rest = hn::Load(DU(), kRests);
+  const auto* words = reinterpret_cast<const uint32_t*>(hits);
+  const auto word = [&](uint32_t w) HWY_ATTR {
+    Word merged = hn::LoadU(DU(), words);
+    for (uint32_t v = 1; v < kWords; ++v) {
+      const uint32_t here = (w + kWords * lanes - v * lanes) % kWords;
+      merged = hn::IfThenElse(hn::Eq(rest, hn::Set(DU(), here)),
+                              hn::LoadU(DU(), words + v * lanes), merged);
+    }
+    const Word lane = hn::Iota(DU(), 0);
+    const Word at = hn::Add(hn::Add(hn::ShiftLeft<2>(lane), lane), hn::Set(DU(), w));
+    const Word in_order = hn::And(at, hn::Set(DU(), lanes - 1));
+    return hn::TableLookupLanes(merged, hn::IndicesFromVec(DU(), in_order));
+  };
+  const auto number = [&](uint32_t w) HWY_ATTR { return hn::BitCast(D(), word(w)); };
+  return {word(1), number(0), {number(2), number(3), number(4)}};
 }
-HWY_INLINE Real load_distances(const Hit* hits, size_t count) {
-  return hn::GatherIndex(D(), &hits->distance, places_of_hits(count));
-}
-HWY_INLINE Real3 load_normals(const Hit* hits, size_t count) {
-  const Int at = places_of_hits(count);
-  return {hn::GatherIndex(D(), &hits->normal.x, at), hn::GatherIndex(D(), &hits->normal.y, at),
-          hn::GatherIndex(D(), &hits->normal.z, at)};
+
+/// Of `count` hits; lanes beyond have none.
+HWY_INLINE HitLanes load_hits(const Hit* hits, size_t count) {
+  if (HWY_LIKELY(count == hn::Lanes(D()))) return load_all_hits(hits);
+  Hit some[kMostFloatLanes];
+  std::copy_n(hits, count, some);
+  return load_all_hits(some);
 }

@@ -10,6 +10,8 @@ constexpr double kRadius = 0.55;  ///< pixels
 /// A line that lies in a surface must not break up, and none may shine through from behind: a line
 /// is seen if it is no more than this many pixels' width behind what the pixel shows.
 constexpr double kBias = 3;
+/// What is at the eye itself is not in front of it.
+constexpr double kTiny = 1e-300;
 
 }  // namespace
 
@@ -37,7 +39,8 @@ bool LineLayer::clip(Vec3& a, Vec3& b) const {
   const double x = (0.5 * camera_.width + kMargin) * units_;
   const double y = (0.5 * camera_.height + kMargin) * units_;
   const bool flat = camera_.orthographic;
-  const double nearest = flat ? -camera_.ortho_reach : 1e-9 * std::max(length(a), length(b));
+  const double nearest =
+      flat ? -camera_.ortho_reach : 1e-9 * std::max(length(a), length(b)) + kTiny;
   double first = 0, last = 1;
   const auto keep = [&](double at_a, double at_b) {  // where not negative
     if (at_a < 0 && at_b < 0) {

@@ -98,6 +98,7 @@ TEST(LineLayer, OnlyWhatIsInFrontOfTheEyeIsDrawn) {
   const Camera camera = line_camera(false);
   EXPECT_EQ(line_sum(line_strengths(camera, {-1, -4, 0}, {1, -4, 0})), 0);
   EXPECT_EQ(line_sum(line_strengths(camera, {-1, 0, 0}, {1, 0, 0})), 0) << "through the eye";
+  EXPECT_EQ(line_sum(line_strengths(camera, {0, 0, 0}, {0, 0, 0})), 0) << "a dot at the eye";
   // From behind the eye to the right, past the picture's right side, to a point in its middle.
   const std::vector<float> strengths = line_strengths(camera, {4, -4, 0}, {0, 8, 0});
   EXPECT_GT(strengths[16 * 8 + 12], 0.4f);

@@ -38,6 +38,23 @@ ColorScheme effective_scheme(const ShadeSettings& settings) {
   return color_schemes().front();
 }
 
+std::vector<Light> lights(const Camera& camera, const ShadeSettings& settings) {
+  const auto direction = [&](Vec3f eye) {
+    const Vec3 world =
+        camera.right * double(eye.x) + camera.up * double(eye.y) - camera.forward * double(eye.z);
+    return Light{normalize(world), true};
+  };
+  switch (settings.style) {
+    case Style::kStudio:
+      return {direction(kKeyDirection), direction(kFillDirection), direction(kRimDirection)};
+    case Style::kBlinn:
+      return {{settings.light.value_or(camera.eye)}};
+    case Style::kOpenscad:
+      break;
+  }
+  return {};
+}
+
 Vec3f base_color(const Appearance& appearance, const ColorScheme& scheme) {
   const Rgba& own = appearance.color;
   if (!own.is_valid()) return to_unit(appearance.cut ? scheme.back : scheme.front);
@@ -50,6 +67,7 @@ Shader::Shader(const Camera& camera, std::span<const Appearance> appearances,
   ShadeParameters& p = parameters_;
   p.style = settings.style;
   p.has_background = settings.background;
+  p.has_shadows = settings.shadows;
   p.inverse_height = 1 / float(camera.height);
   p.light_from_eye = PixelRays::to_float(settings.light.value_or(camera.eye) - camera.eye);
   const auto world_from_eye = [&](Vec3f v) {
@@ -74,37 +92,44 @@ Shader::Shader(const Camera& camera, std::span<const Appearance> appearances,
       *settings.lone_primitive < p.materials.size())
     p.materials[*settings.lone_primitive] = to_unit(scheme.lone);
   if (p.materials.empty()) p.materials.push_back({});  // the background's
-  material_ = uint32_t(p.materials.size());
-  cut_ = material_ + 1;
+  p.last = uint32_t(p.materials.size());
+  cut_ = p.last + 1;
   p.materials.insert(p.materials.end(), {material, cut});
 }
 
 template <class Place>
-void Shader::look(std::span<const Hit> hits, const Place& place, SeenHits& seen) const {
+void Shader::look(std::span<const Hit> hits, const Place& place, std::span<const uint8_t> shadows,
+                  SeenHits& seen) const {
+  WHITTLE_CHECK(shadows.empty() || shadows.size() == hits.size());
   seen.hits = hits;
+  if (!shadows.empty()) {
+    seen.shadows.assign(hits.size() + kMostFloatLanes, 0);
+    std::ranges::copy(shadows, seen.shadows.begin());
+  }
+  if (cut_faces_ == nullptr) return;
   seen.looks.resize(hits.size() + kMostFloatLanes);
   std::fill(seen.looks.begin() + std::ptrdiff_t(hits.size()), seen.looks.end(), 0);
-  for (size_t i = 0; i < hits.size(); ++i) seen.looks[i] = std::min(hits[i].id, material_);
-  if (cut_faces_ == nullptr) return;
+  for (size_t i = 0; i < hits.size(); ++i) seen.looks[i] = std::min(hits[i].id, parameters_.last);
   for (size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i].hit() || !cut_faces_->is_contested(hits[i].id)) continue;
     const PixelPosition at = place(i);
     const Ray ray = camera_.ray(at.x, at.y);
     const Vec3 point = ray.origin + ray.direction * double(hits[i].distance);
-    seen.looks[i] = cut_faces_->is_cut(hits[i].id, point) ? cut_ : material_;
+    seen.looks[i] = cut_faces_->is_cut(hits[i].id, point) ? cut_ : parameters_.last;
   }
 }
 
-void Shader::row(std::span<const Hit> hits, int y, SeenHits& seen, uint8_t* rgba) const {
+void Shader::row(std::span<const Hit> hits, std::span<const uint8_t> shadows, int y, SeenHits& seen,
+                 uint8_t* rgba) const {
   const auto place = [y](size_t x) { return PixelPosition{float(x) + 0.5f, float(y) + 0.5f}; };
-  look(hits, place, seen);
+  look(hits, place, shadows, seen);
   shade_row(parameters_, seen, y, rgba);
 }
 
 void Shader::samples(std::span<const Hit> hits, std::span<const PixelPosition> places,
-                     SeenHits& seen, Colors& colors) const {
+                     std::span<const uint8_t> shadows, SeenHits& seen, Colors& colors) const {
   look(
-      hits, [&](size_t i) { return places[i]; }, seen);
+      hits, [&](size_t i) { return places[i]; }, shadows, seen);
   shade_samples(parameters_, seen, places, colors);
 }
 
@@ -113,7 +138,9 @@ void Shader::store(const Colors& colors, uint8_t* rgba) const {
 }
 
 Picture shade(const Frame& frame, const Camera& camera, std::span<const Appearance> appearances,
-              const ShadeSettings& settings, const Workers& workers) {
+              const ShadeSettings& settings, const Workers& workers,
+              std::span<const uint8_t> shadows) {
+  WHITTLE_CHECK(shadows.empty() || shadows.size() == frame.hits.size());
   WHITTLE_CHECK(frame.width == camera.width && frame.height == camera.height);
   const Shader shader(camera, appearances, settings);
   Picture picture = Picture::unfilled(frame.width, frame.height);
@@ -122,7 +149,9 @@ Picture shade(const Frame& frame, const Camera& camera, std::span<const Appearan
     SeenHits seen;
     for (size_t y = first; y < last; ++y) {
       const std::span<const Hit> hits(&frame.at(0, int(y)), size_t(frame.width));
-      shader.row(hits, int(y), seen, picture.at(0, int(y)));
+      const std::span<const uint8_t> row =
+          shadows.empty() ? shadows : shadows.subspan(y * hits.size(), hits.size());
+      shader.row(hits, row, int(y), seen, picture.at(0, int(y)));
     }
   });
   return picture;

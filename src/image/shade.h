@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/box.h"
 #include "base/workers.h"
 #include "image/colorscheme.h"
 #include "image/cut_faces.h"
@@ -31,7 +32,19 @@ struct ShadeSettings {
   const CutFaces* cut_faces = nullptr;
   /// kOpenscad: the primitive that is all of the solid, if it is one; it has a colour of its own.
   std::optional<uint32_t> lone_primitive;
+  /// kStudio, kBlinn: lights reach only what they see. Then the studio's key light has sharp edges.
+  bool shadows = false;
+  Box casters;  ///< with shadows: finite, holds all that casts them
 };
+
+struct Light {
+  Vec3 at;  ///< where it stands, or the unit direction to it
+  bool is_direction = false;
+};
+
+/// The lights of a style, in world space, in the order of the bits of a shadow (image/shadows.h).
+/// kOpenscad has none that could cast any.
+std::vector<Light> lights(const Camera& camera, const ShadeSettings& settings);
 
 /// The colours of surfaces without color(), and of the background, as a style has them.
 ColorScheme effective_scheme(const ShadeSettings& settings);
@@ -50,29 +63,33 @@ class Shader {
   Shader(const Camera& camera, std::span<const Appearance> appearances,
          const ShadeSettings& settings);
 
-  /// Writes the pixels of row y, four bytes each. `seen` is scratch space.
-  void row(std::span<const Hit> hits, int y, SeenHits& seen, uint8_t* rgba) const;
+  /// Writes the pixels of row y, four bytes each. `shadows`: one of each hit, or none at all.
+  /// `seen` is scratch space.
+  void row(std::span<const Hit> hits, std::span<const uint8_t> shadows, int y, SeenHits& seen,
+           uint8_t* rgba) const;
   /// The colours of hits, or of the background, seen through as many picture positions. Alpha is 1,
   /// or 0 where nothing is hit and no background is wanted. `seen` is scratch space.
-  void samples(std::span<const Hit> hits, std::span<const PixelPosition> places, SeenHits& seen,
-               Colors& colors) const;
+  void samples(std::span<const Hit> hits, std::span<const PixelPosition> places,
+               std::span<const uint8_t> shadows, SeenHits& seen, Colors& colors) const;
   /// Writes colours as four bytes each.
   void store(const Colors& colors, uint8_t* rgba) const;
 
  private:
   /// Picture position of hit i: place(i).
   template <class Place>
-  void look(std::span<const Hit> hits, const Place& place, SeenHits& seen) const;
+  void look(std::span<const Hit> hits, const Place& place, std::span<const uint8_t> shadows,
+            SeenHits& seen) const;
 
   Camera camera_;
   ShadeParameters parameters_;
-  uint32_t material_, cut_;    ///< of parameters_.materials: without color()
+  uint32_t cut_;               ///< of parameters_.materials: without color(), as last
   const CutFaces* cut_faces_;  ///< kOpenscad
 };
 
 /// Colours every pixel, in parallel. A pure function: the same bytes on any number of threads.
-/// Precondition: the frame has the camera's size.
+/// Precondition: the frame has the camera's size; there is one of `shadows` a pixel, or none.
 Picture shade(const Frame& frame, const Camera& camera, std::span<const Appearance> appearances,
-              const ShadeSettings& settings, const Workers& workers);
+              const ShadeSettings& settings, const Workers& workers,
+              std::span<const uint8_t> shadows = {});
 
 }  // namespace whittle

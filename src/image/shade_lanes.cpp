@@ -1,7 +1,10 @@
 #include "image/shade_lanes.h"
 
+#include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstring>
+#include <iterator>
 
 // This file is compiled once for every instruction set; see foreach_target.h.
 #undef HWY_TARGET_INCLUDE
@@ -39,7 +42,14 @@ namespace {
 struct Seen {
   Real3 normal, base;
   Real distance, px, py;
+  Word shadows;
 };
+
+/// 0 where a light of that bit does not reach.
+HWY_INLINE Real where_lit(const Seen& s, uint32_t bit, Real v) {
+  const auto dark = hn::TestBit(s.shadows, hn::Set(DU(), bit));
+  return hn::IfThenZeroElse(hn::RebindMask(D(), dark), v);
+}
 
 // OpenSCAD: rgb = base * (0.2 + |n.l|), two opposite lights fixed to the camera.
 struct Openscad {
@@ -55,7 +65,7 @@ struct Blinn {
     const Real3 d = ray_direction(p.rays, s.px, s.py);
     const Real3 n = select(hn::Gt(dot(s.normal, d), set(0)), negate(s.normal), s.normal);
     const Real3 l = unit(sub(set(p.light_from_eye), ray_point(p.rays, d, s.distance, s.px, s.py)));
-    const Real n_l = dot(n, l);
+    const Real n_l = where_lit(s, 1, dot(n, l));
     Real highlight = positive(dot(n, unit(sub(l, d))));
     static_assert(kBlinnExponent == 16);
     for (int i = 0; i < 4; ++i) highlight = hn::Mul(highlight, highlight);
@@ -76,9 +86,11 @@ struct Studio {
     const Real3 n = select(inner, negate(s.normal), s.normal);
     n_d = hn::IfThenElse(inner, hn::Neg(n_d), n_d);
 
+    const float wrap = p.has_shadows ? 0 : kKeyWrap;
     const Real key =
-        positive(hn::Div(hn::Add(dot(n, set(p.key)), set(kKeyWrap)), set(1 + kKeyWrap)));
-    const Real fill = positive(dot(n, set(p.fill))), rim = positive(dot(n, set(p.rim)));
+        where_lit(s, 1, positive(hn::Div(hn::Add(dot(n, set(p.key)), set(wrap)), set(1 + wrap))));
+    const Real fill = where_lit(s, 2, positive(dot(n, set(p.fill))));
+    const Real rim = where_lit(s, 4, positive(dot(n, set(p.rim))));
     Real3 light = surroundings(n.z);
     light = add(light, scale(set(kKeyColor), key));
     light = add(light, scale(set(kFillColor), fill));
@@ -89,7 +101,7 @@ struct Studio {
     const Real growth = hn::Mul(
         hn::Mul(hn::Mul(set(kGrazingReflectance - kReflectance), grazing2), grazing2), grazing);
     const Real reflectance = hn::Add(set(kReflectance), growth);
-    Real highlight = positive(dot(mirrored, set(p.key)));
+    Real highlight = where_lit(s, 1, positive(dot(mirrored, set(p.key))));
     for (int i = 0; i < 5; ++i) highlight = hn::Mul(highlight, highlight);
     const Real3 reflected = add(scale(surroundings(mirrored.z), hn::Mul(set(2), reflectance)),
                                 scale(set(kKeyColor), hn::Mul(highlight, set(kHighlight))));
@@ -105,9 +117,20 @@ HWY_INLINE Real3 background(const ShadeParameters& p, Real py) {
   return mix(set(p.top), set(p.bottom), hn::Mul(py, set(p.inverse_height)));
 }
 
+/// Which of the materials the hits have.
+HWY_INLINE Word load_looks(const ShadeParameters& p, const SeenHits& seen, size_t i, Word id) {
+  return seen.looks.empty() ? hn::Min(id, hn::Set(DU(), p.last)) : hn::LoadU(DU(), &seen.looks[i]);
+}
+/// And which lights do not reach them.
+HWY_INLINE Word load_shadows(const SeenHits& seen, size_t i) {
+  return seen.shadows.empty() ? hn::Zero(DU()) : hn::LoadU(DU(), &seen.shadows[i]);
+}
+
 /// The base colours. Neighbours mostly have one, and looking up many takes longer.
-HWY_INLINE Real3 load_materials(const ShadeParameters& p, const uint32_t* looks, Word look) {
-  if (hn::AllTrue(DU(), hn::Eq(look, hn::Set(DU(), looks[0])))) return set(p.materials[looks[0]]);
+HWY_INLINE Real3 load_materials(const ShadeParameters& p, Word look) {
+  const uint32_t first_look = hn::GetLane(look);
+  if (hn::AllTrue(DU(), hn::Eq(look, hn::Set(DU(), first_look))))
+    return set(p.materials[first_look]);
   const Int at = hn::Mul(hn::BitCast(DI(), look), hn::Set(DI(), 3));
   const Vec3f& first = p.materials[0];
   return {hn::GatherIndex(D(), &first.x, at), hn::GatherIndex(D(), &first.y, at),
@@ -116,11 +139,9 @@ HWY_INLINE Real3 load_materials(const ShadeParameters& p, const uint32_t* looks,
 
 /// The surfaces' colours; anything where nothing is hit.
 template <class Look>
-HWY_INLINE Real3 surface(const ShadeParameters& p, const SeenHits& seen, size_t i, size_t count,
-                         Word look, Real px, Real py) {
-  const Hit* hits = &seen.hits[i];
-  return Look::color(p, {load_normals(hits, count), load_materials(p, &seen.looks[i], look),
-                         load_distances(hits, count), px, py});
+HWY_INLINE Real3 surface(const ShadeParameters& p, const HitLanes& hits, Word look, Word shadow,
+                         Real px, Real py) {
+  return Look::color(p, {hits.normal, load_materials(p, look), hits.distance, px, py, shadow});
 }
 
 /// Values in 0..1 as 8 bits, rounded; what lies outside is clamped and NaN is 0.
@@ -161,12 +182,13 @@ void row(const ShadeParameters& p, const SeenHits& seen, int y, uint8_t* rgba) {
   const Word behind = p.has_background ? pack(p, background(p, py), set(1)) : hn::Zero(DU());
   for (size_t i = 0; i < seen.hits.size(); i += hn::Lanes(D())) {
     const size_t count = std::min(seen.hits.size() - i, hn::Lanes(D()));
-    const Word look = hn::LoadU(DU(), &seen.looks[i]);
+    const HitLanes hits = load_hits(&seen.hits[i], count);
+    const Word look = load_looks(p, seen, i, hits.id);
     const auto missed = hn::Eq(look, hn::Zero(DU()));
     Word pixels = behind;
     if (!hn::AllTrue(DU(), missed)) {
       const Real px = hn::Add(hn::Iota(D(), float(i)), set(0.5f));
-      const Real3 color = surface<Look>(p, seen, i, count, look, px, py);
+      const Real3 color = surface<Look>(p, hits, look, load_shadows(seen, i), px, py);
       pixels = hn::IfThenElse(missed, behind, pack(p, color, set(1)));
     }
     store(pixels, count, rgba + 4 * i);
@@ -182,10 +204,11 @@ void samples(const ShadeParameters& p, const SeenHits& seen, std::span<const Pix
     HWY_ALIGN float x[kMostFloatLanes] = {}, y[kMostFloatLanes] = {};
     for (size_t k = 0; k < count; ++k) x[k] = places[i + k].x, y[k] = places[i + k].y;
     const Real px = hn::Load(D(), x), py = hn::Load(D(), y);
-    const Word look = hn::LoadU(DU(), &seen.looks[i]);
+    const HitLanes hits = load_hits(&seen.hits[i], count);
+    const Word look = load_looks(p, seen, i, hits.id);
     const auto missed = hn::RebindMask(D(), hn::Eq(look, hn::Zero(DU())));
-    const Real3 color =
-        select(missed, background(p, py), surface<Look>(p, seen, i, count, look, px, py));
+    const Real3 color = select(missed, background(p, py),
+                               surface<Look>(p, hits, look, load_shadows(seen, i), px, py));
     hn::StoreU(color.x, D(), &colors.r[i]);
     hn::StoreU(color.y, D(), &colors.g[i]);
     hn::StoreU(color.z, D(), &colors.b[i]);

@@ -26,16 +26,19 @@ struct ShadeParameters {
   Vec3f headlight;             ///< kOpenscad: one of its two opposite directions
   Vec3f key, fill, rim;        ///< kStudio: unit, from the surface to the light
   Vec3f top, bottom;           ///< background
+  bool has_shadows = false;    ///< kStudio: the key light is a point
   bool has_background = true;  ///< false: the background's pixels are four zeros
   const SrgbTable* srgb = &srgb_table();
-  std::vector<Vec3f> materials;  ///< base colours; SeenHits::looks are indices
+  std::vector<Vec3f> materials;  ///< base colours, by id
+  uint32_t last = 0;             ///< that of ids beyond
 };
 
-/// Hits and which of the materials each has; 0 is background. Behind the last look are zeros, so
-/// that lanes can be loaded past the end.
+/// Hits, and which of the materials each has if it is not its id that tells (0 is background), and
+/// which lights do not reach it if any does not, a bit each (kStudio: 1 key, 2 fill, 4 rim; kBlinn:
+/// 1). Behind the last look and shadow are zeros, so that lanes can be loaded past the end.
 struct SeenHits {
   std::span<const Hit> hits;
-  std::vector<uint32_t> looks;
+  std::vector<uint32_t> looks, shadows;  ///< or empty
 };
 
 /// Colours in the style's averaging space (see Shader), an array a component. Behind the last is

@@ -36,7 +36,7 @@ std::vector<uint8_t> shade_samples_of(std::span<const Hit> hits,
   const Shader shader(camera, appearances, settings);
   SeenHits seen;
   Colors colors;
-  shader.samples(hits, places, seen, colors);
+  shader.samples(hits, places, {}, seen, colors);
   std::vector<uint8_t> rgba(4 * hits.size());
   shader.store(colors, rgba.data());
   return rgba;
@@ -262,7 +262,7 @@ TEST(Shade, ThePictureIsTheSamplesInThePixelsMiddlesWhateverTheThreads) {
     const Camera camera = default_camera(width, 47);
     const std::vector<PixelPosition> places = middles(frame);
     for (const ShadeSettings& settings : all_settings()) {
-      const Picture p = shade(frame, camera, kAppearances, settings, kWorkers);
+      const Picture p = shade(frame, camera, kAppearances, settings, Workers(0));
       const std::vector<uint8_t> samples =
           shade_samples_of(frame.hits, places, camera, kAppearances, settings);
       for (size_t i = 0; i < frame.hits.size(); ++i) {
@@ -283,11 +283,11 @@ TEST(Shade, EveryInstructionSetGivesTheSameBytes) {
     Camera camera = default_camera(67, 40);
     camera.orthographic = orthographic;
     for (const ShadeSettings& settings : all_settings()) {
-      const Picture expected = shade(frame, camera, kAppearances, settings, kWorkers);
+      const Picture expected = shade(frame, camera, kAppearances, settings, Workers(0));
       const std::vector<uint8_t> samples =
           shade_samples_of(frame.hits, middles(frame), camera, kAppearances, settings);
       for_every_instruction_set([&] {
-        EXPECT_EQ(shade(frame, camera, kAppearances, settings, kWorkers).rgba, expected.rgba);
+        EXPECT_EQ(shade(frame, camera, kAppearances, settings, Workers(0)).rgba, expected.rgba);
         EXPECT_EQ(shade_samples_of(frame.hits, middles(frame), camera, kAppearances, settings),
                   samples);
       });
@@ -308,6 +308,61 @@ TEST(Shade, WhatNoByteHoldsIsClamped) {
     Shader(default_camera(), {}, styled(style)).store(colors, rgba.data());
     for (size_t i = 0; i < rgba.size(); ++i) EXPECT_EQ(rgba[i], bytes[i / 4]) << i;
   }
+}
+
+/// The colour of a hit that all lights fall on (but for the studio's rim light, which comes from
+/// behind), in the middle of a picture, with that shadow.
+Rgb8 in_shadow(Style style, uint8_t shadow, bool with_shadows = true) {
+  const Camera camera = default_camera(1, 1);
+  const Vec3 n = normalize(camera.up * 0.4 - camera.forward);
+  Frame frame(1, 1);
+  frame.at(0, 0) = {30, 1, {float(n.x), float(n.y), float(n.z)}};
+  ShadeSettings settings = styled(style);
+  settings.shadows = with_shadows;
+  settings.light = camera.eye + camera.up * 20;
+  const std::vector<uint8_t> shadows{shadow};
+  const Picture picture = shade(frame, camera, kAppearances, settings, kAllWorkers,
+                                with_shadows ? shadows : std::span<const uint8_t>());
+  return at(picture, 0, 0);
+}
+
+TEST(Shade, WhatTheLampDoesNotReachIsAmbient) {
+  const Vec3f base = base_color({}, effective_scheme(styled(Style::kBlinn))) * kBlinnAmbient;
+  EXPECT_EQ(in_shadow(Style::kBlinn, 1),
+            (Rgb8{to_8_bits(base.x), to_8_bits(base.y), to_8_bits(base.z)}));
+  EXPECT_EQ(in_shadow(Style::kBlinn, 0), in_shadow(Style::kBlinn, 0, false));
+  EXPECT_GT(in_shadow(Style::kBlinn, 0).g, 2 * in_shadow(Style::kBlinn, 1).g);
+}
+
+TEST(Shade, EachOfTheStudiosLightsHasAShadowOfItsOwn) {
+  const auto brightness = [](uint8_t shadow) { return int(in_shadow(Style::kStudio, shadow).g); };
+  EXPECT_LT(brightness(1), brightness(0) - 40) << "key";
+  EXPECT_LT(brightness(2), brightness(0)) << "fill";
+  EXPECT_EQ(brightness(4), brightness(0)) << "the rim light does not fall here";
+  EXPECT_LT(brightness(3), brightness(1));
+  EXPECT_GT(brightness(7), 20) << "the surroundings have none";
+}
+
+TEST(Shade, OpenscadHasNoLightsThatCast) {
+  EXPECT_TRUE(lights(default_camera(), styled(Style::kOpenscad)).empty());
+  EXPECT_EQ(in_shadow(Style::kOpenscad, 7), in_shadow(Style::kOpenscad, 0, false));
+}
+
+TEST(Shade, TheKeyLightOfShadowsEndsWhereTheSurfaceTurnsAway) {
+  // A surface just beyond the terminator: without shadows the key reaches round the corner.
+  const Camera camera = default_camera(1, 1);
+  const Light key = lights(camera, styled(Style::kStudio))[0];
+  const auto green = [&](double cosine, bool shadows) {
+    const Vec3 aside = normalize(cross(key.at, camera.right));
+    const Vec3 n = key.at * cosine + aside * std::sqrt(1 - cosine * cosine);
+    Frame frame(1, 1);
+    frame.at(0, 0) = {30, 1, {float(n.x), float(n.y), float(n.z)}};
+    ShadeSettings settings = styled(Style::kStudio);
+    settings.shadows = shadows;
+    return int(at(shade(frame, camera, kAppearances, settings, kAllWorkers), 0, 0).g);
+  };
+  EXPECT_GT(green(-0.02, false), green(-0.02, true) + 5);
+  EXPECT_NEAR(green(-0.001, true), green(0.001, true), 1) << "no step at the terminator";
 }
 
 }  // namespace

@@ -58,6 +58,13 @@ FN AlongRay sphere_along_ray(Real scale, Real c, Vec3 o, Vec3 d) {
   return make_along(scale, scale * dot3(o, d), scale * dot3(o, o) + c, K(0));
 }
 
+// A quadric's with neither off nor b, about the axes: the same numbers for less.
+FN AlongRay diagonal_along_ray(Vec3 diag, Real c, Vec3 o, Vec3 d) {
+  Vec3 ad = make_vec3(diag.x * d.x, diag.y * d.y, diag.z * d.z);
+  Vec3 ao = make_vec3(diag.x * o.x, diag.y * o.y, diag.z * o.z);
+  return make_along(dot3(ad, d), dot3(ad, o), dot3(ao, o) + c, K(0));
+}
+
 FN AlongRay quadric_along_ray(Quadric f, Vec3 o, Vec3 d) {
   Vec3 ad = quadric_apply(f, d);
   return make_along(dot3(ad, d), dot3(ad, o) + dot3(f.b, d), quadric_value(f, o), K(0));
@@ -100,6 +107,9 @@ FN Real along_value(AlongRay f, Real t) { return quadratic_value(f.a, f.h, f.k, 
 FN Real along_root(AlongRay f, Bool rising) {
   return f.about + quadratic_root(f.a, f.h, f.k, rising);
 }
+
+// The same as along_value for a plane.
+FN Real plane_value(AlongRay f, Real t) { return K(2) * f.h * t + f.k; }
 
 // Bounds of a sphere's f over the box with centre m and half size h: exact (from the box's nearest
 // and farthest point), widened by `slack` times the magnitudes of the terms, which covers the rounding

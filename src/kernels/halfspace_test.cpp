@@ -109,6 +109,23 @@ TEST(Quadric, AlongARayIsTheValueOnTheRay) {
   }
 }
 
+TEST(AlongRay, LessArithmeticGivesTheSameNumbers) {
+  Numbers numbers(6);
+  for (int i = 0; i < 100000; ++i) {
+    const Vec3 o = numbers.vec(), d = numbers.vec();
+    const double t = numbers.any();
+    const K::Quadric round{numbers.vec(), {}, {}, numbers.any()};
+    const K::AlongRay f = K::quadric_along_ray(round, o, d),
+                      same = K::diagonal_along_ray(round.diag, round.c, o, d);
+    ASSERT_EQ(same.a, f.a);
+    ASSERT_EQ(same.h, f.h);
+    ASSERT_EQ(same.k, f.k);
+    ASSERT_EQ(same.about, f.about);
+    const K::AlongRay plane = K::plane_along_ray(numbers.vec(), o, d);
+    ASSERT_EQ(K::plane_value(plane, t), K::along_value(plane, t));
+  }
+}
+
 TEST(AlongRay, SmallBodiesFarFromTheRaysOriginKeepTheirDigits) {
   // A ball and a cylinder wall of radius 1, a million away: their squares cancel to a
   // ten-thousandth if the ray is not moved.

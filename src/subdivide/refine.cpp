@@ -25,10 +25,13 @@ uint32_t stall_limit(uint32_t literals) {
 
 /// Whether splitting a cell of so many literals saves more than it takes, all counted in visits of
 /// a node by a ray. Each ray saves a part of the literals that it would look at, and makes a visit
-/// and a bit more; the split itself takes so much for each literal of the formula.
+/// and a bit more; beyond a truth table it saves much more, as leaves with one are solved for many
+/// rays at once. The split itself takes so much for each literal of the formula.
 bool pays_off(uint32_t literals, double rays) {
-  constexpr double kSavedEach = 0.32, kMoreVisits = 1.3, kSplitEach = 20;
-  return rays * (kSavedEach * literals - kMoreVisits) > kSplitEach * literals;
+  constexpr double kSavedEach = 0.32, kSavedBeyond = 4, kMoreVisits = 1.3, kSplitEach = 120;
+  const uint32_t beyond = std::max(literals, kTableLiterals) - kTableLiterals;
+  return rays * (kSavedEach * literals + kSavedBeyond * beyond - kMoreVisits) >
+         kSplitEach * literals;
 }
 
 /// What a cell takes if it is not split, at most: as a leaf, or open and rounded up to a power of

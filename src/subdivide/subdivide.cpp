@@ -60,6 +60,11 @@ void refine_top(const CellTree& tree, const Workers& workers) {
   widen(tree, workers, refiners, is_long);
 }
 
+void refine_levels(const CellTree& tree, const Workers& workers) {
+  PerWorker<RefinerLease> refiners(workers);
+  widen(tree, workers, refiners, [](CellLink) { return true; });
+}
+
 void refine_all(const CellTree& tree, const Workers& workers) {
   PerWorker<RefinerLease> refiners(workers);
   const auto any = [](CellLink) { return true; };

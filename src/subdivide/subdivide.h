@@ -77,6 +77,9 @@ CellTree open_cells(const Scene& scene, const SubdivideSettings& settings);
 /// Refines the cells with long formulas, which all who look at the tree meet first, on all threads.
 void refine_top(const CellTree& tree, const Workers& workers);
 
+/// Refines the cells level by level, on all threads, until enough are open to keep these busy.
+void refine_levels(const CellTree& tree, const Workers& workers);
+
 /// Refines all that is open, on all threads. Never fails; time and memory are bounded by the
 /// settings' `memory`.
 void refine_all(const CellTree& tree, const Workers& workers);

@@ -21,6 +21,7 @@ constexpr Choice<SplitRule> kSplits[] = {{"longest", SplitRule::kLongest},
                                          {"cost", SplitRule::kCost}};
 constexpr Choice<ShaderCases> kShaders[] = {{"specialised", ShaderCases::kSpecialised},
                                             {"unified", ShaderCases::kUnified}};
+constexpr Choice<bool> kCulling[] = {{"on", true}, {"off", false}};
 constexpr Choice<bool> kProjections[] = {
     {"perspective", false}, {"p", false}, {"orthogonal", true}, {"ortho", true}, {"o", true}};
 constexpr Choice<bool> kSmallCells[] = {{"trace", false}, {"ignore", true}};
@@ -52,6 +53,9 @@ Choices<SplitRule> split_choices() {
 }
 Choices<ShaderCases> shaders_choices() {
   return kShaders;
+}
+Choices<bool> culling_choices() {
+  return kCulling;
 }
 Choices<bool> projection_choices() {
   return kProjections;

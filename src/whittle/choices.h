@@ -45,6 +45,8 @@ Choices<Curves> curves_choices();
 Choices<bool> matrices_choices();
 Choices<SplitRule> split_choices();
 Choices<ShaderCases> shaders_choices();
+/// Whether cells behind others are left out.
+Choices<bool> culling_choices();
 /// OpenSCAD's words for --projection; true: orthographic.
 Choices<bool> projection_choices();
 /// What becomes of cells too small to split; true: they are ignored.

@@ -40,6 +40,11 @@ Status check_picture_size(int64_t width, int64_t height) {
                            width, height, kMostSide, kMostPixels)};
 }
 
+Status check_shadows(const ShadeSettings& settings) {
+  if (!settings.shadows || settings.style != Style::kOpenscad) return Done{};
+  return Error{ErrorKind::kUsage, "style openscad has no shadows, as OpenSCAD has none"};
+}
+
 struct Renderer::State {
   const Model& model;
   RendererSettings settings;
@@ -53,7 +58,8 @@ struct Renderer::State {
   std::unique_ptr<Tracer> tracer;
   CpuTracer* cpu = nullptr;        ///< the tracer, if it is that one
   RasterTracer* raster = nullptr;  ///< or that one
-  bool is_auto = false;            ///< nobody chose the backend
+  Refine refine = Refine::kWhereRaysCome;
+  bool is_auto = false;  ///< nobody chose the backend
   std::shared_ptr<RasterDevice> device;
   std::string backend_note;
 
@@ -71,8 +77,8 @@ Status Renderer::State::choose_backend() {
   if (is_auto)
     settings.backend = gpu::has_graphics_hardware() ? Backend::kVulkanRaster : Backend::kCpu;
   if (settings.backend != Backend::kVulkanRaster) return Done{};
-  Result<std::shared_ptr<RasterDevice>> opened =
-      open_raster_device({.device = settings.device, .shaders = settings.shaders});
+  Result<std::shared_ptr<RasterDevice>> opened = open_raster_device(
+      {.device = settings.device, .shaders = settings.shaders, .culling = settings.culling});
   if (opened && !(is_auto && is_software(**opened))) {
     device = *std::move(opened);
     backend_note = describe(*device);
@@ -135,7 +141,6 @@ Status Renderer::State::make_tracer(const Camera& camera) {
   const auto start = Clock::now();
   cells.reset();
   SubdivideSettings subdivision = settings.subdivide;
-  subdivision.threads = settings.threads;
   subdivision.rays = double(camera.width) * double(camera.height);
   if (settings.pixel_threshold > 0) {
     subdivision.is_small = [camera, pixels = settings.pixel_threshold](const Box& box) {
@@ -144,25 +149,40 @@ Status Renderer::State::make_tracer(const Camera& camera) {
   }
   cells = open_cells(scene, subdivision);
   const bool is_raster = settings.backend == Backend::kVulkanRaster;
-  settings.eager || is_raster ? refine_all(*cells, workers) : refine_top(*cells, workers);
+  if (refine == Refine::kAll)
+    refine_all(*cells, workers);
+  else if (!is_raster)
+    refine_top(*cells, workers);
+  times.subdivide = milliseconds_since(start);
+  times.send = 0;
   if (is_raster) {
-    Result<std::unique_ptr<RasterTracer>> made = make_raster_tracer(device, scene, *cells);
+    const auto before_sending = Clock::now();
+    Result<std::unique_ptr<RasterTracer>> made =
+        make_raster_tracer(device, scene, *cells, settings.threads);
     if (!made) return made.error();
     raster = made->get();
     tracer = *std::move(made);
+    times.send = milliseconds_since(before_sending);
   } else {
     std::unique_ptr<CpuTracer> made = make_cpu_tracer(scene, *cells, settings.threads);
     cpu = made.get();
     tracer = std::move(made);
   }
-  times.subdivide = milliseconds_since(start);
   return Done{};
 }
 
-Status Renderer::prepare(const Camera& camera) {
+Status Renderer::prepare(const Camera& camera, Refine refine) {
+  state_->refine = refine;
   Status made = state_->make_tracer(camera);
   if (made || state_->falls_back(made.error(), camera)) return Done{};
   return made;
+}
+
+void Renderer::discard() {
+  state_->tracer.reset();
+  state_->cpu = nullptr;
+  state_->raster = nullptr;
+  state_->cells.reset();
 }
 
 Result<Frame> Renderer::trace(const Camera& camera, const Progress& progress) {
@@ -186,6 +206,7 @@ Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
     look.cut_faces = &*s.cut_faces;
     look.lone_primitive = lone_primitive(s.model);
   }
+  if (look.shadows) look.casters = view_region(bounds(s.model));
   const auto shaded = [&] {
     return shade_antialiased(tracer(), camera, frame, s.looks, look, antialias, s.workers);
   };

@@ -29,6 +29,9 @@ inline constexpr int kMostThreads = 1024;
 /// A kUsage error if a picture of that size is not made.
 Status check_picture_size(int64_t width, int64_t height);
 
+/// A kUsage error if shadows are asked for in a style that has none.
+Status check_shadows(const ShadeSettings& settings);
+
 /// Rays a side of an edge pixel where nobody says: what looks right. The styles that show what
 /// others show (the paper, OpenSCAD) have no antialiasing, as those have none.
 constexpr int default_antialias(Style style) {
@@ -39,15 +42,22 @@ struct RendererSettings {
   Backend backend = Backend::kAuto;
   std::string device{};  ///< of a vulkan backend: number or part of a name; empty: the best
   ShaderCases shaders = RasterSettings{}.shaders;  ///< of vulkan-raster
-  int threads = 0;                                 ///< 0: all
-  SubdivideSettings subdivide;  ///< `threads` and `is_small` are set from here and below
-  bool eager = false;           ///< refine all cells at once, and not where rays come
+  bool culling = RasterSettings{}.culling;
+  int threads = 0;              ///< 0: all
+  SubdivideSettings subdivide;  ///< `rays` and `is_small` are set from the camera and below
   double pixel_threshold = 0;   ///< cells whose edges are all shorter are small; 0: none is
+};
+
+/// When cells are refined. The pictures do not depend on it.
+enum class Refine {
+  kWhereRaysCome,  ///< and when
+  kAll,            ///< before there are rays
 };
 
 /// Milliseconds that each stage took when it was last run.
 struct StageTimes {
   double lower = 0, frame = 0, subdivide = 0, trace = 0, shade = 0;
+  double send = 0;  ///< cells that were there, to the device
 };
 
 /// One model and what is made of it. The steps are called in their order; each can be repeated, and
@@ -66,10 +76,12 @@ class Renderer {
   /// where view-all is on. Of a solid that has no end, what bounds() says is framed.
   Camera camera(const ViewOptions& options);
 
-  /// Makes the cells (as far as they are not left to the rays) and the tracer. The camera counts
+  /// Makes the cells, as far as they are not left to the rays, and the tracer. The camera counts
   /// only if there is a pixel threshold. The oracle has no cells.
   /// Fails if the device refuses; with kAuto the CPU goes on in its place, here and below.
-  Status prepare(const Camera& camera);
+  Status prepare(const Camera& camera, Refine refine = Refine::kWhereRaysCome);
+  /// Gives back what prepare() made; it may be called again.
+  void discard();
   /// Precondition of all below: prepare() was called.
   Result<Frame> trace(const Camera& camera, const Progress& progress = {});
   Result<Picture> shade(const Frame& frame, const Camera& camera, const ShadeSettings& settings,

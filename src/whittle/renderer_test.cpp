@@ -132,11 +132,10 @@ TEST(Renderer, ThePixelThresholdReachesTheCells) {
   const auto cells = [&](double threshold) {
     RendererSettings settings;
     settings.subdivide.leaf_size = 1;
-    settings.eager = true;
     settings.pixel_threshold = threshold;
     Result<Renderer> renderer = Renderer::make(model, settings);
     EXPECT_TRUE(bool(renderer));
-    EXPECT_TRUE(renderer->prepare(camera));
+    EXPECT_TRUE(renderer->prepare(camera, Refine::kAll));
     return statistics_of(*renderer->cells()).cell_count();
   };
   EXPECT_EQ(cells(1000), 1u) << "all of the model is smaller";

@@ -76,7 +76,9 @@ ShadeSettings shading_of(const RenderOptions& o) {
                         .light = to_vec3(o.light, "light"),
                         .background = o.background,
                         .cut_faces = nullptr,
-                        .lone_primitive = {}};
+                        .lone_primitive = {},
+                        .shadows = o.shadows,
+                        .casters = {}};
   if (!o.color_scheme.empty()) {
     shading.scheme = find_color_scheme(o.color_scheme);
     if (shading.scheme == nullptr) {
@@ -135,6 +137,7 @@ Rendering Solid::render(const RenderOptions& options) const {
     refuse("threads must be 0 to " + std::to_string(kMostThreads));
   }
   const ShadeSettings shading = shading_of(options);
+  value_of(check_shadows(shading));
   const ViewOptions view = view_of(options);
   RendererSettings settings;
   settings.backend = value_of(choose(backend_choices(), "backend", options.backend));

@@ -1,7 +1,9 @@
-// Holds the cpu backend to the oracle on given files, or on any number of random trees:
+// Holds a backend to the oracle on given files, or on any number of random trees:
 //
 //   agreement_check FILE...                        three views each, several leaf sizes
 //   agreement_check --seeds COUNT [--first SEED] [--coincident | --nearly]
+//   agreement_check --raster specialised|unified [--device DEVICE] ...
+//                                                  vulkan-raster and not cpu, all its messages too
 //
 // Prints every model that differs with its first differing pixel; exit code 1 if any does.
 #include <cstdio>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "agreement/cpu_subject.h"
+#include "agreement/raster_subject.h"
 #include "io/read.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"
@@ -19,13 +22,23 @@
 namespace whittle {
 namespace {
 
-AgreementReport check(const Model& model, std::span<const uint32_t> leaf_sizes, int width,
-                      int height) {
+/// Null: the cpu backend is held to the oracle.
+using Device = std::shared_ptr<RasterDevice>;
+
+AgreementReport check(const Device& device, const Model& model,
+                      std::span<const uint32_t> leaf_sizes, int width, int height) {
   const auto oracle = make_oracle_tracer(model);
   AgreementReport sum;
   for (const uint32_t k : leaf_sizes) {
     SubdivideSettings settings;
     settings.leaf_size = k;
+    if (device) {
+      RasterSubject raster(device, model, settings);
+      for (const Camera& camera : cameras_for(model, width, height))
+        sum += check_agreement(model, *raster.tracer, *oracle, camera);
+      if (!raster.tracer->status()) sum.first_difference = raster.tracer->status().error().message;
+      continue;
+    }
     CpuSubject cpu(model, settings);
     for (const Camera& camera : cameras_for(model, width, height))
       sum += check_agreement(model, *cpu.tracer, *oracle, camera);
@@ -48,6 +61,10 @@ int run(int argc, char** argv) {
   bool good = true, coincident = false, nearly = false;
   uint64_t seeds = 0, first = 1;
   std::vector<std::string> files;
+  RasterSettings settings;
+  settings.validate = true;
+  settings.first_batch_ms = 0;
+  bool wants_raster = false;
   for (int i = 1; i < argc; ++i) {
     if (!std::strcmp(argv[i], "--seeds") && i + 1 < argc)
       seeds = std::strtoull(argv[++i], nullptr, 10);
@@ -57,8 +74,24 @@ int run(int argc, char** argv) {
       coincident = true;
     else if (!std::strcmp(argv[i], "--nearly"))
       coincident = nearly = true;
-    else
+    else if (!std::strcmp(argv[i], "--device") && i + 1 < argc)
+      settings.device = argv[++i];
+    else if (!std::strcmp(argv[i], "--raster") && i + 1 < argc) {
+      wants_raster = true;
+      settings.shaders =
+          !std::strcmp(argv[++i], "unified") ? ShaderCases::kUnified : ShaderCases::kSpecialised;
+    } else
       files.push_back(argv[i]);
+  }
+  Device device;
+  if (wants_raster) {
+    Result<Device> opened = open_raster_device(settings);
+    if (!opened) {
+      std::printf("%s\n", opened.error().message.c_str());
+      return 1;
+    }
+    device = *std::move(opened);
+    std::printf("%s\n", describe(*device).c_str());
   }
   for (const std::string& file : files) {
     const Result<Read> read = read_file(file);
@@ -68,12 +101,13 @@ int run(int argc, char** argv) {
       continue;
     }
     static constexpr uint32_t kLeafSizes[] = {2, 4, 6, 16};
-    good &= report(file, check(read->model, kLeafSizes, 96, 72), true);
+    good &= report(file, check(device, read->model, kLeafSizes, 96, 72), true);
   }
   AgreementReport sum;
   for (uint64_t seed = first; seed < first + seeds; ++seed) {
     const uint32_t k[] = {uint32_t(2 + seed % 8)};
-    const AgreementReport r = check(model_of(random_tree(seed, {.primitives = 4 + int(seed % 24),
+    const AgreementReport r = check(device,
+                                    model_of(random_tree(seed, {.primitives = 4 + int(seed % 24),
                                                                 .coincident = coincident,
                                                                 .nearly = nearly,
                                                                 .halfspaces = seed % 5 == 0})),
@@ -82,6 +116,12 @@ int run(int argc, char** argv) {
     sum += r;
   }
   if (seeds > 0) report("all seeds", sum, true);
+  if (device) {
+    for (const std::string& message : validation_messages(*device)) {
+      std::printf("%s\n", message.c_str());
+      good = false;
+    }
+  }
   return good ? 0 : 1;
 }
 

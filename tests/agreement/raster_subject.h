@@ -17,12 +17,13 @@ struct RasterSubject {
   CellTree cells;
   std::unique_ptr<RasterTracer> tracer;
 
+  /// `eager`: all cells are refined before there are pictures.
   RasterSubject(std::shared_ptr<RasterDevice> device, const Model& model,
-                const SubdivideSettings& settings) {
+                const SubdivideSettings& settings, bool eager = false) {
     Result<Scene> lowered = lower(model);
     WHITTLE_CHECK(lowered);
     scene = *std::move(lowered);
-    cells = subdivide(scene, settings);
+    cells = eager ? subdivide(scene, settings) : open_cells(scene, settings);
     Result<std::unique_ptr<RasterTracer>> made =
         make_raster_tracer(std::move(device), scene, cells);
     if (!made) std::fprintf(stderr, "%s\n", made.error().message.c_str());

@@ -208,6 +208,9 @@ TEST_F(Bench, JsonIsAnArrayWithAnObjectAFile) {
           "literals_per_ray", "checked"})
       EXPECT_GT(one[name].get<double>(), 0) << name;
     EXPECT_GE(one["cold_ms"].get<double>(), one["trace_ms"].get<double>() / 2);
+    EXPECT_EQ(one["paper_ms"]["S"], one["subdivide_ms"]);
+    EXPECT_EQ(one["paper_ms"]["T"], one["trace_ms"]);
+    EXPECT_EQ(one["paper_ms"]["cold"], one["cold_ms"]);
   }
 }
 

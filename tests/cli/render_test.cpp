@@ -320,5 +320,35 @@ TEST_F(Render, CurvesAreChosen) {
   EXPECT_GT(normals_of("smooth", "round.csg", "openscad"), 100u);
 }
 
+TEST_F(Render, ShadowsDarkenAndChangeNoFact) {
+  write("shade.csg", "translate([0, 0, -1]) cube([40, 40, 1]); translate([20, 20, 10]) sphere(5);");
+  const std::vector<std::string> view{"--style",  "blinn",     "--light",
+                                      "60,20,80", "--imgsize", "64,64"};
+  const auto draw = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"shade.csg", "-o", name};
+    arguments.insert(arguments.end(), view.begin(), view.end());
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    good(arguments);
+  };
+  draw("lit.png", {});
+  draw("dark.png", {"--shadows"});
+  draw("oracle.png", {"--shadows", "--backend", "oracle"});
+  draw("lit.exr", {});
+  draw("dark.exr", {"--shadows"});
+  const Picture lit = png("lit.png"), dark = png("dark.png");
+  size_t darker = 0;
+  for (size_t i = 0; i < lit.rgba.size(); ++i) {
+    EXPECT_LE(dark.rgba[i], lit.rgba[i]);
+    darker += dark.rgba[i] + 20 < lit.rgba[i];
+  }
+  EXPECT_GT(darker, 200u);
+  EXPECT_EQ(read("oracle.png"), read("dark.png"));
+  EXPECT_EQ(run({"compare", "lit.exr", "dark.exr", "--distance", "0", "--normal", "0"}).exit_code,
+            0);
+  const Ended refused = run({"shade.csg", "-o", "x.png", "--shadows", "--style", "openscad"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("style openscad has no shadows"), std::string::npos) << refused.err;
+}
+
 }  // namespace
 }  // namespace whittle

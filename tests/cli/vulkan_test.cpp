@@ -1,5 +1,6 @@
 // Vulkan as the program's users meet it: there, not there, or not built.
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "support/program.h"
 
@@ -43,6 +44,45 @@ TEST_F(Vulkan, ShowsWhatTheCpuShows) {
   EXPECT_EQ(raster.exit_code, 0) << raster.err;
   EXPECT_EQ(raster.err, "");
   EXPECT_EQ(run({"compare", "cpu.exr", "raster.exr"}).exit_code, 0);
+}
+
+TEST_F(Vulkan, BenchHasThePapersQuantities) {
+  for (const char* rules : {"--quiet", "--paper"}) {
+    const Ended done = run({"bench", "part.csg", "--json", "--repeat", "2", "--imgsize", "48,36",
+                            "--backend", "vulkan-raster", rules});
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    const nlohmann::json one = nlohmann::json::parse(done.out)[0];
+    for (const char* name : {"S", "T_S", "T_R", "S_R"})
+      EXPECT_GT(one["paper_ms"][name].get<double>(), 0) << name;
+    for (const char* name : {"in_turn_ms", "stream_first_ms", "stream_batches", "stream_cells"})
+      EXPECT_GT(one[name].get<double>(), 0) << name;
+    EXPECT_LT(one["paper_ms"]["S"], one["in_turn_ms"]);
+    EXPECT_LE(one["stream_first_ms"], one["paper_ms"]["S_R"]);
+    EXPECT_EQ(one["backend"], "vulkan-raster");
+    EXPECT_GT(one["checked"], 1000);
+  }
+  const Ended table = run(
+      {"bench", "part.csg", "--repeat", "1", "--imgsize", "48,36", "--backend", "vulkan-raster"});
+  EXPECT_NE(table.out.find("ms cells refined while drawn"), std::string::npos) << table.out;
+}
+
+TEST_F(Vulkan, ShadersAndCullingDoNotShow) {
+  const std::vector<std::string> plain{
+      "part.csg", "--backend", "vulkan-raster", "--imgsize", "48,36", "--stats", "-o"};
+  const auto with = [&](const std::string& out, std::vector<std::string> more) {
+    more.insert(more.begin(), plain.begin(), plain.end());
+    more.insert(more.begin() + std::ptrdiff_t(plain.size()), out);
+    const Ended made = run(more);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return made.err;
+  };
+  // Of 48 x 36 pixels, few cells, all in view.
+  EXPECT_NE(with("x.exr", {}).find("cells in view"), std::string::npos);
+  with("y.exr", {"--shaders", "unified"});
+  EXPECT_NE(with("z.exr", {"--culling", "off"}).find("in view, 0 of them because"),
+            std::string::npos);
+  EXPECT_EQ(read("x.exr"), read("y.exr"));
+  EXPECT_EQ(read("x.exr"), read("z.exr"));
 }
 
 TEST_F(Vulkan, DevicesAreListedAndChosen) {

@@ -161,13 +161,12 @@ void look_at_pixels(Tracer& oracle, const Camera& camera, const Frame& frame,
   }
 }
 
-/// What the oracle sees at the pixel's centre, and from eyes that rounding cannot tell from this
-/// one.
-Looks look_from_beside(Tracer& oracle, const Camera& camera, size_t pixel, const Hit& center) {
+/// What the oracle sees at the pixel's centre, and with the eye moved by `step` in four directions.
+Looks look_from_beside(Tracer& oracle, const Camera& camera, size_t pixel, const Hit& center,
+                       double step) {
   Looks looks;
   looks.rays[0] = center_ray(camera, pixel);
   looks.hits[0] = center;
-  const double step = kOriginRounding * length(looks.rays[0].origin);
   const PixelPosition position = {float(int(pixel) % camera.width) + 0.5f,
                                   float(int(pixel) / camera.width) + 0.5f};
   for (size_t i = 1; i < kLooks; ++i) {
@@ -245,17 +244,25 @@ void check_pixels(const Model& model, const char* subject, const Frame& seen, Tr
                   const Frame& expected, std::span<const size_t> pixels, const Camera& camera,
                   double across, const AcceptsId& accepts, AgreementReport& report) {
   look_at_pixels(oracle, camera, expected, pixels, [&](size_t pixel, const Looks& looks) {
-    const bool certain = is_certain(looks, camera.eye);
     const Hit& hit = seen.hits[pixel];
-    report.ambiguous += !certain;
     const auto matches_one = [&](const Looks& from, int count) {
       for (int i = 0; i < count; ++i)
         if (matches(hit, from, i, camera.eye, across, accepts)) return true;
       return false;
     };
-    if (matches_one(looks, certain ? 1 : kLooks)) return;
-    if (certain && matches_one(look_from_beside(oracle, camera, pixel, looks.hits[0]), kLooks))
-      return;
+    bool certain = is_certain(looks, camera.eye);
+    bool matched = matches_one(looks, certain ? 1 : kLooks);
+    if (certain && !matched) {
+      // Near and far within rounding: surfaces that cross there may part between the two.
+      const double rounding = kOriginRounding * length(looks.rays[0].origin);
+      for (const double step : {rounding / 4, rounding}) {
+        const Looks beside = look_from_beside(oracle, camera, pixel, looks.hits[0], step);
+        certain = certain && is_certain(beside, camera.eye);
+        matched = matched || matches_one(beside, kLooks);
+      }
+    }
+    report.ambiguous += !certain;
+    if (matched) return;
     ++(certain ? report.unexplained : report.ambiguous_unmatched);
     // A certain pixel tells more than an ambiguous one seen before it.
     if (report.first_difference.empty() || (certain && report.unexplained == 1))

@@ -6,8 +6,9 @@
 // answer. Elsewhere it is ambiguous: the ray passes an edge so closely that rounding may decide,
 // and any of the five answers will do.
 //
-// What is thinner than the displacement may hide between the five. So at a certain pixel an answer
-// is right, too, if it is the oracle's from an eye that is displaced by its own rounding.
+// What is thinner than the displacement may hide between the five. So where the answer is another,
+// the oracle looks again from eyes that are displaced by no more than rounding; if they do not see
+// one surface the pixel is ambiguous, and their answers will do too.
 #pragma once
 
 #include <cstdint>

@@ -50,7 +50,7 @@ constexpr InOrder kInOrder;
 class CpuTracerImpl final : public CpuTracer {
  public:
   CpuTracerImpl(const Scene& scene, const CellTree& tree, int threads)
-      : scene_(scene), tree_(tree), lanes_(scene, tree), workers_(threads), scratches_(workers_) {}
+      : lanes_(scene, tree), workers_(threads), scratches_(workers_) {}
 
   const char* name() const override { return "cpu"; }
 
@@ -79,7 +79,7 @@ class CpuTracerImpl final : public CpuTracer {
 
   void probe(const Camera& camera, std::span<const PixelPosition> positions,
              std::span<Hit> hits) override {
-    if (tree_.region.is_empty()) {
+    if (lanes_.tree.region.is_empty()) {
       std::fill(hits.begin(), hits.end(), Hit{});
       return;
     }
@@ -136,7 +136,7 @@ class CpuTracerImpl final : public CpuTracer {
   Frame frame_of(const Camera& camera, const Progress& progress, const Trace& trace) {
     Frame frame = Frame::unfilled(camera.width, camera.height);
     const PixelRect seen =
-        tree_.region.is_empty() ? PixelRect{} : pixels_covering(camera, world_region());
+        lanes_.tree.region.is_empty() ? PixelRect{} : pixels_covering(camera, world_region());
     const int columns = parts(camera.width, kBlock), rows = parts(camera.height, kBlock);
     const int tile_columns = parts(camera.width, kTileWidth);
     const auto trace_block = [&](int x0, int y0, LaneScratch& scratch) {
@@ -171,11 +171,10 @@ class CpuTracerImpl final : public CpuTracer {
   }
 
   Box world_region() const {
-    return {tree_.region.lo + scene_.origin, tree_.region.hi + scene_.origin};
+    const Box& region = lanes_.tree.region;
+    return {region.lo + lanes_.scene.origin, region.hi + lanes_.scene.origin};
   }
 
-  const Scene& scene_;
-  const CellTree& tree_;
   const LaneScene lanes_;
   Workers workers_;
   PerWorker<LaneScratch> scratches_;

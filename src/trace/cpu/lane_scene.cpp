@@ -19,6 +19,9 @@ LaneHalfSpace in_lanes(const HalfSpace& h, double edge) {
   } else if (h.kind == SurfaceKind::kSphere) {
     result.kind = AlongKind::kSphere;
     result.v = h.f.diag;
+  } else if (h.f.off == Vec3{} && h.f.b == Vec3{}) {
+    result.kind = AlongKind::kDiagonal;
+    result.v = h.f.diag;
   } else {
     result.kind = AlongKind::kQuadric;
   }

@@ -148,9 +148,8 @@ class Walk {
       if (cell.kind() == CellKind::kNode) {
         const int axis = cell.axis();
         const double split = now.cell->split;
-        const Cell *const near_cell = cell.children() + side_[axis], *const far_cell =
-                                                                         cell.children() + 1 -
-                                                                         side_[axis];
+        const Cell* const near_cell = cell.children() + side_[axis];
+        const Cell* const far_cell = cell.children() + 1 - side_[axis];
         const double low = split * sign_[axis] - b.high_origin[axis];
         const double high = split * sign_[axis] - b.low_origin[axis];
         const double first = low * (low < 0 ? b.high_inverse : b.low_inverse)[axis];
@@ -268,10 +267,8 @@ class Walk {
         const Real t = tile_.passes(packet, cell.axis(), at->split);
         const Bool wants_far = hn::And(active, t < t1);
         const Bool wants_near = hn::And(active, hn::Gt(t, t0));
-        const Cell *const near_cell = cell.children() + side_[cell.axis()], *const far_cell =
-                                                                                cell.children() +
-                                                                                1 -
-                                                                                side_[cell.axis()];
+        const Cell* const near_cell = cell.children() + side_[cell.axis()];
+        const Cell* const far_cell = cell.children() + 1 - side_[cell.axis()];
         if (hn::AllFalse(D(), wants_far)) {
           at = near_cell;
         } else if (hn::AllFalse(D(), wants_near)) {

@@ -13,12 +13,18 @@ namespace whittle {
 
 /// Which arithmetic a half-space gets along a ray: by itself alone, so that it is one polynomial in
 /// every cell.
-enum class AlongKind : uint64_t { kPlane, kSphere, kQuadric, kSmallQuadric };
+enum class AlongKind : uint64_t {
+  kPlane,
+  kSphere,
+  kDiagonal,  ///< neither off nor b: ellipsoids and cylinders along the axes
+  kQuadric,
+  kSmallQuadric
+};
 
 /// A half-space as the lanes read it, a cache line each. Quadrics have the rest in the scene.
 struct alignas(64) LaneHalfSpace {
   Vec3 center;
-  Vec3 v;  ///< plane: Quadric::b; sphere: v.x is the scale
+  Vec3 v;  ///< plane: Quadric::b; sphere: v.x is the scale; kDiagonal: Quadric::diag
   double c = 0;
   AlongKind kind = AlongKind::kPlane;
 };
@@ -40,6 +46,11 @@ struct LaneScene {
 inline constexpr size_t kMaxLanes = 8;
 inline constexpr size_t kTileRays = 64;  ///< rays that walk together
 
+/// f of one half-space along the rays of a tile.
+struct alignas(64) TileAlong {
+  double a[kTileRays], h[kTileRays], k[kTileRays], about[kTileRays];
+};
+
 /// What one thread needs besides the scene and the cells.
 struct LaneScratch {
   explicit LaneScratch(const LaneScene& scene) : refiner(scene.tree), solver(scene.scene) {}
@@ -47,7 +58,8 @@ struct LaneScratch {
   RefinerLease refiner;
   LeafSolver solver;
   // Per literal of the leaf at hand.
-  std::vector<LaneSigns> signs;      ///< one for each packet
+  std::vector<LaneSigns> signs;  ///< one for each packet
+  std::vector<TileAlong> along;
   std::vector<LiteralOnRay> on_ray;  ///< of one ray
   TraceStats stats;
 };

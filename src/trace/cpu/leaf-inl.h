@@ -60,17 +60,17 @@ class LeavesInLanes {
   };
   template <AlongKind kKind>
   L::AlongRay along(uint32_t half_space, size_t packet) const;
-  L::AlongRay along(uint32_t half_space, size_t packet) const;
-  LaneSigns signs_between(size_t packet, const L::AlongRay& f, bool plane, Real t0, Real t1) const;
+  template <AlongKind kKind>
+  LaneSigns signs_between(size_t packet, const L::AlongRay& f, Real t0, Real t1) const;
+  template <AlongKind kKind>
   static End end_at(L::AlongRay f, Real t);
   Bool is_at_eye(Real at_eye, Real t, const End& end) const;
   End end_at_eye(Real at_eye, L::AlongRay f, Real t, End end) const;
 
   void solve(CellKind kind, const Leaf& leaf);
   template <AlongKind kKind>
-  void look_at(const LeafLiteral& literal, LaneSigns* signs_of, uint32_t settles,
-               uint32_t settling);
-  void find_roots(std::span<const LeafLiteral> literals);
+  uint32_t look_at(const LeafLiteral& literal, size_t number, uint32_t settles, uint32_t settling);
+  void find_roots(size_t literals);
   uint32_t solve_in_lanes(const Leaf& leaf, std::span<const LeafLiteral> literals, size_t visitor);
   uint32_t find_owners(const Leaf& leaf, size_t packet, uint32_t lanes, Word state,
                        uint32_t literal);
@@ -81,8 +81,21 @@ class LeavesInLanes {
   }
 
   void make_room(size_t literals) {
-    const size_t size = literals * kMostPackets;
-    if (scratch_.signs.size() < size) scratch_.signs.resize(size);
+    if (scratch_.along.size() >= literals) return;
+    scratch_.signs.resize(literals * kMostPackets);
+    scratch_.along.resize(literals);
+  }
+  void keep(size_t literal, size_t visitor, const L::AlongRay& f) {
+    TileAlong& to = scratch_.along[literal];
+    const size_t at = visitor * Tile::lanes();
+    hn::Store(f.a, D(), to.a + at), hn::Store(f.h, D(), to.h + at);
+    hn::Store(f.k, D(), to.k + at), hn::Store(f.about, D(), to.about + at);
+  }
+  L::AlongRay kept(size_t literal, size_t visitor) const {
+    const TileAlong& from = scratch_.along[literal];
+    const size_t at = visitor * Tile::lanes();
+    return {hn::Load(D(), from.a + at), hn::Load(D(), from.h + at), hn::Load(D(), from.k + at),
+            hn::Load(D(), from.about + at)};
   }
   LaneSigns& signs(size_t literal, size_t visitor) {
     return scratch_.signs[literal * kMostPackets + visitor];
@@ -132,8 +145,7 @@ inline void LeavesInLanes::pass(CellLink cell) {
   }
 }
 
-/// f of one half-space along all rays of a packet. Always the same numbers, so it can be asked
-/// again rather than stored.
+/// f of one half-space along all rays of a packet.
 template <AlongKind kKind>
 HWY_INLINE L::AlongRay LeavesInLanes::along(uint32_t half_space, size_t packet) const {
   const LaneHalfSpace& h = scene_.half_spaces[half_space];
@@ -142,6 +154,7 @@ HWY_INLINE L::AlongRay LeavesInLanes::along(uint32_t half_space, size_t packet) 
                      origin.z - set(h.center.z)};
   if (kKind == AlongKind::kPlane) return L::plane_along_ray(set(h.v), o, d);
   if (kKind == AlongKind::kSphere) return L::sphere_along_ray(set(h.v.x), set(h.c), o, d);
+  if (kKind == AlongKind::kDiagonal) return L::diagonal_along_ray(set(h.v), set(h.c), o, d);
   const auto& q = scene_.scene.half_spaces[half_space].f;
   const L::Quadric f = {set(q.diag), set(q.off), set(q.b), set(q.c)};
   return kKind == AlongKind::kQuadric ? L::quadric_along_ray(f, o, d)
@@ -156,6 +169,8 @@ HWY_INLINE auto with_kind(AlongKind kind, const Visit& visit) {
       return visit(std::integral_constant<AlongKind, AlongKind::kPlane>());
     case AlongKind::kSphere:
       return visit(std::integral_constant<AlongKind, AlongKind::kSphere>());
+    case AlongKind::kDiagonal:
+      return visit(std::integral_constant<AlongKind, AlongKind::kDiagonal>());
     case AlongKind::kQuadric:
       return visit(std::integral_constant<AlongKind, AlongKind::kQuadric>());
     default:
@@ -163,16 +178,12 @@ HWY_INLINE auto with_kind(AlongKind kind, const Visit& visit) {
   }
 }
 
-HWY_INLINE L::AlongRay LeavesInLanes::along(uint32_t half_space, size_t packet) const {
-  return with_kind(scene_.half_spaces[half_space].kind,
-                   [&](auto kind) { return along<kind.value>(half_space, packet); });
-}
-
 /// Where f changes its sign between t0 and t1. Neighbouring cells evaluate the same numbers at
 /// the t they share, so each change of sign is found in one of them, and in one only.
-HWY_INLINE LaneSigns LeavesInLanes::signs_between(size_t packet, const L::AlongRay& f, bool plane,
-                                                  Real t0, Real t1) const {
-  End start = end_at(f, t0), end = end_at(f, t1);
+template <AlongKind kKind>
+HWY_INLINE LaneSigns LeavesInLanes::signs_between(size_t packet, const L::AlongRay& f, Real t0,
+                                                  Real t1) const {
+  End start = end_at<kKind>(f, t0), end = end_at<kKind>(f, t1);
   if (HWY_UNLIKELY(tile_.from_within)) {
     const Real at_eye = tile_.at_eye(packet);
     start = end_at_eye(at_eye, f, t0, start);
@@ -183,7 +194,7 @@ HWY_INLINE LaneSigns LeavesInLanes::signs_between(size_t packet, const L::AlongR
     start.inside = hn::Or(hn::And(in_plane, end.inside), hn::AndNot(in_plane, start.inside));
   }
   const uint32_t inside = bits(start.inside), changes = inside ^ bits(end.inside);
-  if (plane) return {inside, changes, 0};
+  if (kKind == AlongKind::kPlane) return {inside, changes, 0};
   // In and out again, or out and in: only if f turns back between, and goes beyond zero there.
   const Real bend = L::select(start.inside, set(0) - f.a, f.a);
   const Bool turns = hn::Xor(start.falls, end.falls);
@@ -191,7 +202,12 @@ HWY_INLINE LaneSigns LeavesInLanes::signs_between(size_t packet, const L::AlongR
   return {inside, changes, bits(bends) & ~changes};
 }
 
+template <AlongKind kKind>
 HWY_INLINE LeavesInLanes::End LeavesInLanes::end_at(L::AlongRay f, Real t) {
+  if (kKind == AlongKind::kPlane) {
+    const Real value = L::plane_value(f, t);
+    return {value, value <= set(0), f.h < set(0)};
+  }
   const Real value = L::along_value(f, t);
   return {value, value <= set(0), f.a * (t - f.about) + f.h < set(0)};
 }
@@ -226,10 +242,12 @@ inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
     opposite_[i] = tile_.known[packet] & (tile_.solid[packet] ^ ~settling);
     scratch_.stats.leaves += uint32_t(std::popcount(open_[i]));
   }
-  for (size_t literal = 0; literal < literals.size(); ++literal)
-    with_kind(scene_.half_spaces[literals[literal].literal >> 1].kind, [&](auto along_kind) {
-      look_at<along_kind.value>(literals[literal], &signs(literal, 0), settles, settling);
-    });
+  uint32_t any_open = ~0u;
+  for (size_t literal = 0; literal < literals.size() && any_open != 0; ++literal)
+    any_open =
+        with_kind(scene_.half_spaces[literals[literal].literal >> 1].kind, [&](auto along_kind) {
+          return look_at<along_kind.value>(literals[literal], literal, settles, settling);
+        });
   if (settles) {
     for (size_t i = 0; i < visitors.count; ++i) {
       const uint32_t packet = visitors.packet[i], settled = visitors.lanes[i] & ~open_[i];
@@ -247,7 +265,7 @@ inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
   }
   if (waiting_count_ == 0) return;
   if (literals.size() <= kTableLiterals && scene_.solves_in_lanes) {
-    find_roots(literals);
+    find_roots(literals.size());
     for (size_t w = 0; w < waiting_count_; ++w)
       open_[waiting_[w]] = solve_in_lanes(leaf, literals, waiting_[w]);
   }
@@ -256,33 +274,39 @@ inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
       solve_lane(kind, leaf, waiting_[w], uint32_t(std::countr_zero(left)));
 }
 
-/// The signs of one literal for all visitors that wait. If `settles`, a lane along which the
+/// The signs of one literal for all visitors. If `settles`, a lane along which the
 /// literal never changes and is not `settling` (all bits, or none) needs no more literals.
+/// Returns the lanes that still do, of any visitor.
 template <AlongKind kKind>
-HWY_INLINE void LeavesInLanes::look_at(const LeafLiteral& literal, LaneSigns* signs_of,
-                                       uint32_t settles, uint32_t settling) {
+HWY_INLINE uint32_t LeavesInLanes::look_at(const LeafLiteral& literal, size_t number,
+                                           uint32_t settles, uint32_t settling) {
+  LaneSigns* const signs_of = &signs(number, 0);
   const uint32_t turned = (literal.literal & 1 ? ~0u : 0) ^ settling;
+  uint32_t any_open = 0;
   for (size_t i = 0; i < visitors.count; ++i) {
     const size_t packet = visitors.packet[i];
     const Real t0 = hn::Load(D(), visitors.t0 + i * Tile::lanes()),
                t1 = hn::Load(D(), visitors.t1 + i * Tile::lanes());
-    const LaneSigns s = signs_between(packet, along<kKind>(literal.literal >> 1, packet),
-                                      kKind == AlongKind::kPlane, t0, t1);
+    const L::AlongRay f = along<kKind>(literal.literal >> 1, packet);
+    keep(number, i, f);
+    const LaneSigns s = signs_between<kKind>(packet, f, t0, t1);
     signs_of[i] = s;
     scratch_.stats.literals += uint32_t(std::popcount(open_[i]));
     const uint32_t still = ~(s.changes() | s.bends());
     quiet_[i] &= still;
     open_[i] &= ~(still & (s.inside() ^ turned) & ~opposite_[i] & settles);
+    any_open |= open_[i];
   }
+  return any_open;
 }
 
 /// All crossings of all visitors, infinitely far where a lane has none.
-inline void LeavesInLanes::find_roots(std::span<const LeafLiteral> literals) {
+inline void LeavesInLanes::find_roots(size_t literals) {
   size_t n = 0;
   for (size_t i = 0; i < visitors.count; ++i) {
     first_root_[i] = uint32_t(n);
     if (open_[i] == 0) continue;
-    for (size_t literal = 0; literal < literals.size(); ++literal) {
+    for (size_t literal = 0; literal < literals; ++literal) {
       const LaneSigns& s = signs(literal, i);
       const uint32_t bends = s.bends() & open_[i], crosses = (s.changes() & open_[i]) | bends;
       // f rises where the ray leaves the half-space.
@@ -296,7 +320,7 @@ inline void LeavesInLanes::find_roots(std::span<const LeafLiteral> literals) {
   for (size_t r = 0; r < n; ++r) {
     const Root& root = roots_[r];
     const size_t at = root.visitor * Tile::lanes();
-    const L::AlongRay f = along(literals[root.literal].literal >> 1, visitors.packet[root.visitor]);
+    const L::AlongRay f = kept(root.literal, root.visitor);
     // The signs say that it is in (t0, t1]; rounding may not.
     const Real t =
         hn::Min(hn::Max(L::along_root(f, mask_of(root.rising)), hn::Load(D(), visitors.t0 + at)),
@@ -398,14 +422,10 @@ inline void LeavesInLanes::solve_lane(CellKind kind, const Leaf& leaf, size_t vi
   const std::span<const LeafLiteral> literals = leaf.literals();
   scratch_.on_ray.resize(leaf.literal_count);
   for (uint32_t i = 0; i < leaf.literal_count; ++i) {
-    const L::AlongRay all = along(literals[i].literal >> 1, packet);
-    const auto of_lane = [&](Real v) {
-      alignas(64) double values[kMaxLanes];
-      hn::Store(v, D(), values);
-      return values[lane];
-    };
+    const TileAlong& f = scratch_.along[i];
+    const size_t at = visitor * Tile::lanes() + lane;
     const LaneSigns& s = signs(i, visitor);
-    scratch_.on_ray[i] = {{of_lane(all.a), of_lane(all.h), of_lane(all.k), of_lane(all.about)},
+    scratch_.on_ray[i] = {{f.a[at], f.h[at], f.k[at], f.about[at]},
                           bool(s.inside() >> lane & 1),
                           bool(s.changes() >> lane & 1),
                           bool(s.bends() >> lane & 1)};

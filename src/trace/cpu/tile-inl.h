@@ -46,13 +46,10 @@ class Tile {
   HWY_INLINE L::Vec3 origin(size_t packet) const { return load(origin_, packet); }
   HWY_INLINE L::Vec3 direction(size_t packet) const { return load(direction_, packet); }
   HWY_INLINE Real start(size_t packet) const { return hn::Load(D(), start_ + packet * lanes()); }
-  HWY_INLINE Real at_eye(size_t packet) const {
-    return hn::Load(D(), start_ + packet * lanes()) + set(at_eye_);
-  }
+  HWY_INLINE Real at_eye(size_t packet) const { return start(packet) + set(at_eye_); }
   /// Where a plane of cells is passed. Cells that share the plane share the bits.
   HWY_INLINE Real passes(size_t packet, int axis, double plane) const {
-    return (set(plane) - hn::Load(D(), origin_[axis] + packet * lanes())) *
-           hn::Load(D(), inverse_[axis] + packet * lanes());
+    return (set(plane) - axis_origin(packet, axis)) * axis_inverse(packet, axis);
   }
   HWY_INLINE Real axis_origin(size_t packet, int axis) const {
     return hn::Load(D(), origin_[axis] + packet * lanes());

@@ -1,7 +1,6 @@
 #include "trace/vulkan/draw_list.h"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #include "gpu/commands.h"
@@ -10,7 +9,10 @@ namespace whittle {
 namespace {
 
 /// Of a picture like no other before it, so many of the cells are drawn in the first pass.
-constexpr double kFrontShare = 0.25;
+constexpr double kFrontShare = 0.1;
+
+/// Ranks from front to back that a 32-bit float between 0 and 1 tells apart.
+constexpr uint32_t kMostRanks = (1u << 24) - 1;
 
 /// Invocations in a workgroup of shaders/hidden.comp.
 constexpr uint32_t kTestGroup = 64;
@@ -31,8 +33,10 @@ Status reserve(const RasterDevice& device, const Bindings& bindings, Binding bin
 }  // namespace
 
 Status DrawList::fill(RasterDevice& device, const Bindings& bindings,
-                      std::span<const VisibleCell> cells, std::span<const LeafCase> cases,
+                      std::span<const VisibleCell> cells, uint32_t rank,
                       std::span<const uint32_t> last_seen, uint32_t since, Hiding hiding) {
+  if (cells.size() > kMostRanks - rank)
+    return Error{ErrorKind::kMachine, "more cells than a depth buffer can tell apart"};
   device_ = &device;
   bindings_ = &bindings;
   hiding_ = hiding;
@@ -46,13 +50,13 @@ Status DrawList::fill(RasterDevice& device, const Bindings& bindings,
   const auto was_seen = [&](const VisibleCell& cell) { return last_seen[cell.cell] >= since; };
   const size_t front =
       std::ranges::any_of(cells, was_seen) ? 0 : size_t(kFrontShare * double(cells.size()));
-  const auto place_of = [&](size_t rank) -> uint32_t& {
-    const VisibleCell& cell = cells[rank];
-    const uint32_t draw = 2u * device.shader_for(cases[cell.cell]) + (cell.is_wide ? 0 : 1);
-    const bool is_first = hiding == Hiding::kNone || cell.is_wide || rank < front || was_seen(cell);
+  const auto place_of = [&](size_t i) -> uint32_t& {
+    const VisibleCell& cell = cells[i];
+    const uint32_t draw = 2u * device.shader_for(cell.leaf_case) + (cell.is_wide ? 0 : 1);
+    const bool is_first = hiding == Hiding::kNone || cell.is_wide || i < front || was_seen(cell);
     return next[draw][is_first ? kFirst : kSecond];
   };
-  for (size_t rank = 0; rank < cells.size(); ++rank) ++place_of(rank);
+  for (size_t i = 0; i < cells.size(); ++i) ++place_of(i);
   draws_.clear();
   uint32_t first = 0;
   for (uint32_t i = 0; i < next.size(); ++i) {
@@ -64,11 +68,11 @@ Status DrawList::fill(RasterDevice& device, const Bindings& bindings,
     first += in_first + in_second;
   }
   instance_count_ = first;
-  // Steps as large as they can be, powers of two: every depth is exact.
-  const double step = 1 / double(std::bit_ceil(cells.size() + 1));
+  // A power of two: every depth is exact.
+  constexpr double kStep = 1.0 / (kMostRanks + 1);
   auto* const to = static_cast<Instance*>(instances_.mapped());
-  for (size_t rank = 0; rank < cells.size(); ++rank)
-    to[place_of(rank)++] = {cells[rank].cell, float(double(rank + 1) * step)};
+  for (size_t i = 0; i < cells.size(); ++i)
+    to[place_of(i)++] = {cells[i].cell, float(kStep * ++rank)};
 
   if (Status done =
           reserve(device, bindings, kDrawsBinding, commands_,

@@ -14,19 +14,19 @@ namespace whittle {
 enum class Hiding {
   kNone,       ///< all cells are drawn in the first pass
   kPicture,    ///< those of the second are tested
-  kEverything  ///< so are those of the first, as some pixels are shut from the start
+  kEverything  ///< so are those of the first: some pixels are shut, or parts were drawn before
 };
 
 class DrawList {
  public:
   enum Pass { kFirst, kSecond };
 
-  /// Fills the list. `cells`: front to back. `cases`: of all cells, by number. `last_seen`: by
-  /// number too, the picture in which each was last seen; those seen in `since` or later are drawn
-  /// in the first pass, or if there are none the front ones. Compiles the shaders it needs.
+  /// Fills the list. `cells`: front to back, behind `rank` others. `last_seen`: by number of a
+  /// cell, the picture in which it was last seen; those seen in `since` or later are drawn in the
+  /// first pass, or if there are none the front ones. Compiles the shaders it needs. A kMachine
+  /// error if there are more ranks than a depth buffer can tell apart.
   Status fill(RasterDevice& device, const Bindings& bindings, std::span<const VisibleCell> cells,
-              std::span<const LeafCase> cases, std::span<const uint32_t> last_seen, uint32_t since,
-              Hiding hiding);
+              uint32_t rank, std::span<const uint32_t> last_seen, uint32_t since, Hiding hiding);
 
   /// Whether that pass needs record_test() before it is drawn.
   bool is_tested(Pass pass) const {

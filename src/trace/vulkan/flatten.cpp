@@ -2,7 +2,10 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <span>
+
+#include "subdivide/refine.h"
 
 namespace whittle {
 namespace {
@@ -20,15 +23,70 @@ enum OwningStep : uint32_t {
   kNotElsewhere
 };
 
+/// Where a cell's words say what its leaf is.
+constexpr uint32_t kRuleWord = 12;
+
+void add_number(std::vector<uint32_t>& to, double value, bool doubles) {
+  if (doubles) {
+    const auto bits = std::bit_cast<uint64_t>(value);
+    to.insert(to.end(), {uint32_t(bits), uint32_t(bits >> 32)});
+  } else {
+    to.insert(to.end(), {std::bit_cast<uint32_t>(float(value)), 0});
+  }
+}
+
+void add_vector(std::vector<uint32_t>& to, Vec3 v, bool doubles) {
+  for (int axis = 0; axis < 3; ++axis) add_number(to, v[axis], doubles);
+}
+
 class Flattener {
  public:
-  Flattener(const Scene& scene, const CellTree& tree, bool doubles)
-      : scene_(scene), tree_(tree), doubles_(doubles) {}
+  Flattener(const Scene& scene, const Wanted& wanted, Refiner& refiner, bool doubles,
+            FlatPart& part)
+      : scene_(scene), wanted_(wanted), refiner_(refiner), doubles_(doubles), part_(part) {}
 
-  Result<FlatCells> run() {
-    flat_.region = tree_.region;
-    for (const HalfSpace& h : scene_.half_spaces) add_half_space(h);
-    if (tree_.root != nullptr) add_cells();
+  /// From the cell down, what rays meet first first. Parents come before children.
+  Status run(const Cell& cell, const Box& box) {
+    struct Item {
+      const Cell* cell;
+      Box box;
+      Place place;
+    };
+    std::vector<Item> items{{&cell, box, {}}};
+    while (!items.empty()) {
+      const Item now = items.back();
+      items.pop_back();
+      CellLink link = now.cell->link();
+      // What has no surface need not be looked at.
+      if (link.kind() == CellKind::kEmpty || link.kind() == CellKind::kFull) continue;
+      const BoxSight sight = wanted_.sight ? wanted_.sight->look(now.box) : BoxSight::kSome;
+      if (sight == BoxSight::kNone || is_hidden(now.box, sight)) {
+        part_.at(now.place) = kOpenBit | uint32_t(part_.open.size());
+        part_.open.push_back(now.cell);
+        continue;
+      }
+      if (link.kind() == CellKind::kOpen) link = refiner_.refined(*now.cell);
+      if (link.kind() == CellKind::kNode) {
+        const double split = now.cell->split;
+        const int axis = link.axis();
+        const auto node = uint32_t(part_.nodes.size());
+        part_.nodes.push_back({.split = split, .axis = uint8_t(axis)});
+        part_.at(now.place) = node;
+        const uint32_t first = wanted_.sight && wanted_.sight->starts_above(axis, split) ? 1 : 0;
+        for (const uint32_t side : {1 - first, first}) {
+          Box half = now.box;
+          (side == 0 ? half.hi : half.lo)[axis] = split;
+          items.push_back({link.children() + side, half, {node, side}});
+        }
+      } else if (link.kind() >= CellKind::kConjunction) {
+        const auto number = uint32_t(part_.cells.size() / kCellWords);
+        part_.at(now.place) = kCellBit | number;
+        add_cell(now.box, link.kind(), link.leaf());
+        if (wanted_.sight)
+          part_.visible.push_back({number, part_.cases.back(), sight == BoxSight::kWide});
+      }
+    }
+    prune();
     if (too_large_) {
       return Error{ErrorKind::kMachine,
                    "a cell has more half-spaces than the vulkan backends take in one"};
@@ -37,93 +95,32 @@ class Flattener {
       return Error{ErrorKind::kMachine,
                    "faces that coincide are nested too deeply for the vulkan backends"};
     }
-    return std::move(flat_);
+    return Done{};
   }
 
  private:
-  void add_number(std::vector<uint32_t>& to, double value) const {
-    if (doubles_) {
-      const auto bits = std::bit_cast<uint64_t>(value);
-      to.insert(to.end(), {uint32_t(bits), uint32_t(bits >> 32)});
-    } else {
-      to.insert(to.end(), {std::bit_cast<uint32_t>(float(value)), 0});
-    }
-  }
-  void add_vector(std::vector<uint32_t>& to, Vec3 v) const {
-    for (int axis = 0; axis < 3; ++axis) add_number(to, v[axis]);
-  }
-
-  void add_half_space(const HalfSpace& h) {
-    std::vector<uint32_t>& to = flat_.half_spaces;
-    const size_t first = to.size();
-    const ShaderSurface kind = shader_surface(scene_, h);
-    add_vector(to, h.center);
-    to.insert(to.end(), {uint32_t(kind), 0});
-    if (kind == ShaderSurface::kPlane) {
-      add_vector(to, h.f.b);
-    } else if (kind == ShaderSurface::kSphere) {
-      add_number(to, h.f.diag.x);
-      add_number(to, h.f.c);
-    } else {
-      add_vector(to, h.f.diag);
-      add_vector(to, h.f.off);
-      add_vector(to, h.f.b);
-      add_number(to, h.f.c);
-    }
-    to.resize(first + kHalfSpaceWords);
-  }
-
-  /// Walks the tree from the root down, so parents come before children.
-  void add_cells() {
-    struct Open {
-      const Cell* cell;
-      Box box;
-      uint32_t parent, side;  ///< whose child this becomes
-    };
-    std::vector<Open> open{{tree_.root, tree_.region, kNoChild, 0}};
-    const auto attach = [&](const Open& to, uint32_t child) {
-      (to.parent == kNoChild ? flat_.root : flat_.nodes[to.parent].child[to.side]) = child;
-    };
-    while (!open.empty()) {
-      const Open now = open.back();
-      open.pop_back();
-      const CellLink link = now.cell->link();
-      WHITTLE_CHECK(link.kind() != CellKind::kOpen);
-      if (link.kind() == CellKind::kNode) {
-        const double split = now.cell->split;
-        const auto node = uint32_t(flat_.nodes.size());
-        flat_.nodes.push_back({split, {kNoChild, kNoChild}, uint8_t(link.axis())});
-        attach(now, node);
-        for (uint32_t side = 0; side < 2; ++side) {
-          Box box = now.box;
-          (side == 0 ? box.hi : box.lo)[link.axis()] = split;
-          open.push_back({link.children() + side, box, node, side});
-        }
-      } else if (link.kind() >= CellKind::kConjunction) {
-        attach(now, kCellBit | flat_.cell_count());
-        add_cell(now.box, link.kind(), link.leaf());
-      }
-    }
-    prune();
+  bool is_hidden(const Box& box, BoxSight sight) const {
+    return wanted_.solved && sight == BoxSight::kSome &&
+           wanted_.solved->holds(wanted_.sight->pixels(box));
   }
 
   /// Nodes without anything below them are nothing. Children stand after their parents.
   void prune() {
-    const auto is_bare = [&](uint32_t child) {
-      return child < kCellBit && flat_.nodes[child].child[0] == kNoChild &&
-             flat_.nodes[child].child[1] == kNoChild;
+    const auto is_bare = [&](uint32_t what) {
+      return is_node(what) && part_.nodes[what].child[0] == kNoChild &&
+             part_.nodes[what].child[1] == kNoChild;
     };
-    for (size_t i = flat_.nodes.size(); i-- > 0;)
-      for (uint32_t& child : flat_.nodes[i].child)
+    for (size_t i = part_.nodes.size(); i-- > 0;)
+      for (uint32_t& child : part_.nodes[i].child)
         if (is_bare(child)) child = kNoChild;
-    if (is_bare(flat_.root)) flat_.root = kNoChild;
+    if (is_bare(part_.root)) part_.root = kNoChild;
   }
 
   void add_cell(const Box& box, CellKind kind, const Leaf& leaf) {
     if (leaf.literal_count > kMostLiterals) too_large_ = true;
-    const auto first_literal = uint32_t(flat_.words.size());
+    const auto first_literal = uint32_t(part_.words.size());
     for (const LeafLiteral& literal : leaf.literals())
-      flat_.words.insert(flat_.words.end(), {literal.literal, literal.owner});
+      part_.words.insert(part_.words.end(), {literal.literal, literal.owner});
     add_owning_steps(leaf);
     std::array<uint32_t, 2> rule{};
     ShaderLeaf shader_kind = kShaderConjunction;
@@ -139,20 +136,20 @@ class Flattener {
         break;
       default:
         shader_kind = kShaderProgram;
-        rule[0] = uint32_t(flat_.words.size());
+        rule[0] = uint32_t(part_.words.size());
         for (const Step& step : leaf.steps())
-          flat_.words.insert(flat_.words.end(), {step.literal, step.on_true, step.on_false});
+          part_.words.insert(part_.words.end(), {step.literal, step.on_true, step.on_false});
     }
-    flat_.cases.push_back(leaf_case(scene_, kind, leaf));
-    add_vector(flat_.cells, box.lo);
-    add_vector(flat_.cells, box.hi);
-    flat_.cells.insert(flat_.cells.end(),
+    part_.cases.push_back(leaf_case(scene_, kind, leaf));
+    add_vector(part_.cells, box.lo, doubles_);
+    add_vector(part_.cells, box.hi, doubles_);
+    part_.cells.insert(part_.cells.end(),
                        {first_literal, shader_kind | leaf.literal_count << 2, rule[0], rule[1]});
   }
 
   /// The leaf's formula with group ends written out, so that no shader needs a stack of them.
   void add_owning_steps(const Leaf& leaf) {
-    std::vector<uint32_t>& to = flat_.words;
+    std::vector<uint32_t>& to = part_.words;
     const size_t count = to.size();
     to.push_back(0);
     std::vector<uint32_t> ends;
@@ -187,16 +184,66 @@ class Flattener {
   }
 
   const Scene& scene_;
-  const CellTree& tree_;
+  const Wanted& wanted_;
+  Refiner& refiner_;
   bool doubles_;
   bool too_nested_ = false, too_large_ = false;
-  FlatCells flat_;
+  FlatPart& part_;
 };
 
 }  // namespace
 
-Result<FlatCells> flatten(const Scene& scene, const CellTree& tree, bool doubles) {
-  return Flattener(scene, tree, doubles).run();
+std::vector<uint32_t> flatten_half_spaces(const Scene& scene, bool doubles) {
+  std::vector<uint32_t> to;
+  to.reserve(scene.half_spaces.size() * kHalfSpaceWords);
+  for (const HalfSpace& h : scene.half_spaces) {
+    const size_t first = to.size();
+    const ShaderSurface kind = shader_surface(scene, h);
+    add_vector(to, h.center, doubles);
+    to.insert(to.end(), {uint32_t(kind), 0});
+    if (kind == ShaderSurface::kPlane) {
+      add_vector(to, h.f.b, doubles);
+    } else if (kind == ShaderSurface::kSphere) {
+      add_number(to, h.f.diag.x, doubles);
+      add_number(to, h.f.c, doubles);
+    } else {
+      add_vector(to, h.f.diag, doubles);
+      add_vector(to, h.f.off, doubles);
+      add_vector(to, h.f.b, doubles);
+      add_number(to, h.f.c, doubles);
+    }
+    to.resize(first + kHalfSpaceWords);
+  }
+  return to;
+}
+
+Status flatten(const Scene& scene, const Cell& cell, const Box& box, const Wanted& wanted,
+               Refiner& refiner, bool doubles, FlatPart& part) {
+  return Flattener(scene, wanted, refiner, doubles, part).run(cell, box);
+}
+
+void append(FlatPart& part, Place place, uint32_t cells, uint32_t words, FlatCells& whole) {
+  const auto first_node = uint32_t(whole.nodes.size()), first_open = uint32_t(whole.open.size());
+  const uint32_t first_cell = cells + uint32_t(whole.cells.size() / kCellWords);
+  const uint32_t first_word = words + uint32_t(whole.words.size());
+  const auto moved = [&](uint32_t what) {
+    if (what == kNoChild) return what;
+    return what + (is_cell(what) ? first_cell : is_open(what) ? first_open : first_node);
+  };
+  for (size_t at = 0; at < part.cells.size(); at += kCellWords) {
+    uint32_t* const rule = &part.cells[at + kRuleWord];
+    rule[0] += first_word;
+    if ((rule[1] & 3) == kShaderProgram) rule[2] += first_word;
+  }
+  for (FlatNode& node : part.nodes)
+    for (uint32_t& child : node.child) child = moved(child);
+  for (VisibleCell& visible : part.visible) visible.cell += first_cell;
+  whole.at(place) = moved(part.root);
+  whole.nodes.insert(whole.nodes.end(), part.nodes.begin(), part.nodes.end());
+  whole.cases.insert(whole.cases.end(), part.cases.begin(), part.cases.end());
+  whole.open.insert(whole.open.end(), part.open.begin(), part.open.end());
+  whole.cells.insert(whole.cells.end(), part.cells.begin(), part.cells.end());
+  whole.words.insert(whole.words.end(), part.words.begin(), part.words.end());
 }
 
 }  // namespace whittle

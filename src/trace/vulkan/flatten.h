@@ -9,6 +9,7 @@
 #include "base/result.h"
 #include "subdivide/cells.h"
 #include "trace/vulkan/leaf_case.h"
+#include "trace/vulkan/sight.h"
 
 namespace whittle {
 
@@ -21,37 +22,91 @@ inline constexpr uint32_t kMostNested = 32;
 /// Literals that it has room for in one cell.
 inline constexpr uint32_t kMostLiterals = 1024;
 
+/// What stands in a place of the host's tree: a node's number, or one of these with a number, or
+/// nothing.
+inline constexpr uint32_t kCellBit = 1u << 31;  ///< a cell on the device
+inline constexpr uint32_t kOpenBit = 1u << 30;  ///< what has not been looked at: open cells
+inline constexpr uint32_t kNoChild = UINT32_MAX;
+constexpr bool is_cell(uint32_t what) {
+  return what != kNoChild && (what & kCellBit) != 0;
+}
+constexpr bool is_open(uint32_t what) {
+  return (what & (kCellBit | kOpenBit)) == kOpenBit;
+}
+constexpr bool is_node(uint32_t what) {
+  return (what & (kCellBit | kOpenBit)) == 0;
+}
+
 /// One split on the host's way through the cells, front to back.
 struct FlatNode {
   double split = 0;
-  uint32_t child[2];  ///< below and above the split: a node, a cell | kCellBit, or kNoChild
+  uint32_t child[2] = {kNoChild, kNoChild};  ///< what is below and above the split
   uint8_t axis = 0;
 };
-inline constexpr uint32_t kCellBit = 1u << 31;
-inline constexpr uint32_t kNoChild = UINT32_MAX;
 
+/// A place in the host's tree.
+struct Place {
+  uint32_t parent = kNoChild;  ///< a node, or kNoChild: the tree's root
+  uint32_t side = 0;
+};
+
+/// One cell to draw.
+struct VisibleCell {
+  uint32_t cell;
+  LeafCase leaf_case;  ///< which shader is made for it
+  /// It reaches to the eye's plane or far beyond the picture's sides, so its corners have no good
+  /// place in the picture: every pixel must look.
+  bool is_wide;
+};
+
+/// Cells, and the host's tree of them. Cells that are empty, full or ignored have no surface and
+/// are left out.
 struct FlatCells {
-  /// For each half-space: centre (3 numbers), kind, nothing; then of a plane b; of a sphere its
-  /// scale and c; of others diag, off, b, c.
-  std::vector<uint32_t> half_spaces;
-  /// For each cell that must be drawn: box (6 numbers); first literal (in `words`), kind | literals
+  /// For each cell that may be drawn: box (6 numbers); first literal (in `words`), kind | literals
   /// << 2, and the table, or the first step of the program and nothing.
   std::vector<uint32_t> cells;
-  /// And which shader is made for it; the host keeps that.
-  std::vector<LeafCase> cases;
   /// Literals (literal, owner) of each leaf, then the number of its owning steps and these (kind |
   /// operand << 3, owner); and steps of programs (test, on true, on false).
   std::vector<uint32_t> words;
 
-  Box region;
+  /// What follows only the host has. Of each cell:
+  std::vector<LeafCase> cases;
   std::vector<FlatNode> nodes;
+  std::vector<const Cell*> open;
   uint32_t root = kNoChild;
 
-  uint32_t cell_count() const { return uint32_t(cells.size() / kCellWords); }
+  /// What stands there; may be changed.
+  uint32_t& at(Place place) {
+    return place.parent == kNoChild ? root : nodes[place.parent].child[place.side];
+  }
 };
 
-/// Precondition: all cells are refined. Cells that are empty, full or ignored have no surface and
-/// are left out. A kMachine error if a leaf is too large or nested too deeply for a shader.
-Result<FlatCells> flatten(const Scene& scene, const CellTree& tree, bool doubles);
+/// For each half-space of the scene: centre (3 numbers), kind, nothing; then of a plane b; of a
+/// sphere its scale and c; of others diag, off, b, c.
+std::vector<uint32_t> flatten_half_spaces(const Scene& scene, bool doubles);
+
+class Refiner;
+
+/// What is looked at of a cell's parts.
+struct Wanted {
+  const Sight* sight = nullptr;          ///< what it cannot see stays open; null: all is wanted
+  const SolvedPixels* solved = nullptr;  ///< and so does what is hidden; null: nothing is
+};
+
+/// A part of the cells, by itself: its tree begins at its root.
+struct FlatPart : FlatCells {
+  /// Those of its cells that are seen, in the order in which rays meet them; with `sight`.
+  std::vector<VisibleCell> visible;
+};
+
+/// Adds a cell and all below it to a part that is new, and refines what is open and wanted on the
+/// way. `box`: the cell's. A kMachine error if a leaf is too large or nested too deeply for a
+/// shader.
+Status flatten(const Scene& scene, const Cell& cell, const Box& box, const Wanted& wanted,
+               Refiner& refiner, bool doubles, FlatPart& part);
+
+/// Puts a part into its place in the whole, of which `cells` and `words` stand before what
+/// `whole.cells` and `whole.words` have. The part's cell numbers are then the whole's.
+void append(FlatPart& part, Place place, uint32_t cells, uint32_t words, FlatCells& whole);
 
 }  // namespace whittle

@@ -4,37 +4,39 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <memory>
 
 #include "lower/lower.h"
 #include "subdivide/subdivide.h"
 #include "support/agreement.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"
+#include "trace/vulkan/cell_stream.h"
 #include "trace/vulkan/view_data.h"
 
 namespace whittle {
 namespace {
 
 /// The boxes of all cells, by number, found by walking the flat tree.
-std::map<uint32_t, Box> boxes_of(const FlatCells& flat) {
+std::map<uint32_t, Box> boxes_of(const FlatCells& flat, const Box& region) {
   std::map<uint32_t, Box> boxes;
   struct Open {
     uint32_t at;
     Box box;
   };
-  std::vector<Open> open;
-  if (flat.root != kNoChild) open.push_back({flat.root, flat.region});
+  std::vector<Open> open{{flat.root, region}};
   while (!open.empty()) {
     const Open now = open.back();
     open.pop_back();
-    if (now.at & kCellBit) {
+    if (now.at == kNoChild || is_open(now.at)) continue;
+    if (is_cell(now.at)) {
       boxes[now.at & ~kCellBit] = now.box;
       continue;
     }
     const FlatNode& node = flat.nodes[now.at];
     for (int side = 0; side < 2; ++side) {
-      if (node.child[side] == kNoChild) continue;
       Box box = now.box;
       (side == 0 ? box.hi : box.lo)[node.axis] = node.split;
       open.push_back({node.child[side], box});
@@ -56,44 +58,182 @@ std::pair<double, double> way(const Ray& ray, Vec3 origin, const Box& box) {
   return {t0, t1};
 }
 
+/// Rays through some pixels of a picture meet all these cells, in this order; returns how many were
+/// met. `wanted`: through which pixels.
+template <class Wanted>
+int expect_order(const Scene& scene, const std::map<uint32_t, Box>& boxes, const Camera& camera,
+                 const std::vector<VisibleCell>& visible, const Wanted& wanted) {
+  std::map<uint32_t, size_t> rank;
+  for (size_t i = 0; i < visible.size(); ++i) rank[visible[i].cell] = i;
+  EXPECT_EQ(rank.size(), visible.size()) << "no cell twice";
+  int met = 0;
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) {
+      if (!wanted(x, y)) continue;
+      const Ray ray = camera.ray(x + 0.5, y + 0.5);
+      const Vec3 origin = ray.origin - scene.origin;
+      std::vector<std::pair<size_t, double>> order;  // rank, t
+      for (const auto& [cell, box] : boxes) {
+        const auto [t0, t1] = way(ray, origin, box);
+        if (!(t1 > t0 + 1e-9)) continue;
+        EXPECT_TRUE(rank.contains(cell)) << "a cell that the ray meets is missing";
+        order.push_back({rank[cell], t0});
+        ++met;
+      }
+      std::sort(order.begin(), order.end());
+      for (size_t i = 1; i < order.size(); ++i)
+        EXPECT_LE(order[i - 1].second, order[i].second + 1e-9);
+    }
+  return met;
+}
+
+struct RandomModel {
+  Model model;
+  Scene scene;
+  SubdivideSettings settings;
+
+  explicit RandomModel(uint64_t seed) : model(model_of(random_tree(seed, {.primitives = 12}))) {
+    scene = *lower(model);
+    settings.leaf_size = 3;
+  }
+  Sight sight(const Camera& camera) const {
+    return {camera, local_eye(scene, camera), scene.origin, {0, 0, camera.width, camera.height}, 0};
+  }
+  /// The boxes of all leaves, as the tree has them.
+  std::vector<Box> leaves() const {
+    std::vector<Box> boxes;
+    const CellTree tree = subdivide(scene, settings);
+    for_each_leaf(tree, [&](CellLink link, const Box& box) {
+      if (link.kind() >= CellKind::kConjunction) boxes.push_back(box);
+    });
+    return boxes;
+  }
+};
+
+constexpr auto kEveryPixel = [](int, int) { return true; };
+
 TEST(FrontToBack, IsTheOrderOfEveryRayAndMissesNoCell) {
   int met = 0;
   for (uint64_t seed = 1; seed <= 20; ++seed) {
-    const Model model = model_of(random_tree(seed, {.primitives = 12}));
-    const Scene scene = *lower(model);
-    SubdivideSettings small_leaves;
-    small_leaves.leaf_size = 3;
-    const CellTree tree = subdivide(scene, small_leaves);
-    const FlatCells flat = *flatten(scene, tree, true);
-    const std::map<uint32_t, Box> boxes = boxes_of(flat);
-    EXPECT_EQ(boxes.size(), flat.cell_count());
+    const RandomModel subject(seed);
+    const CellTree tree = subdivide(subject.scene, subject.settings);
+    CellSupply supply(subject.scene, tree, true, 1);
+    EXPECT_FALSE(supply.is_open());
+    const CellBatch all = *supply.at_once(nullptr);
+    const std::map<uint32_t, Box> boxes = boxes_of(supply.flat(), supply.region());
+    EXPECT_EQ(boxes.size(), all.cells.size() / kCellWords);
     EXPECT_EQ(boxes.size(), statistics_of(tree).leaf_count());
-    for (const Camera& camera : cameras_for(model, 12, 9)) {
-      const Vec3 eye = local_eye(scene, camera);
+    for (const Camera& camera : cameras_for(subject.model, 12, 9)) {
       std::vector<VisibleCell> visible;
-      order_front_to_back(flat, camera, eye, {0, 0, camera.width, camera.height}, 0, visible);
-      std::map<uint32_t, size_t> rank;
-      for (size_t i = 0; i < visible.size(); ++i) rank[visible[i].cell] = i;
-      EXPECT_EQ(rank.size(), visible.size()) << "no cell twice";
-      for (int y = 0; y < camera.height; ++y)
-        for (int x = 0; x < camera.width; ++x) {
-          const Ray ray = camera.ray(x + 0.5, y + 0.5);
-          const Vec3 origin = ray.origin - scene.origin;
-          std::vector<std::pair<size_t, double>> order;  // rank, t
-          for (const auto& [cell, box] : boxes) {
-            const auto [t0, t1] = way(ray, origin, box);
-            if (!(t1 > t0 + 1e-9)) continue;
-            ASSERT_TRUE(rank.contains(cell)) << "a cell that the ray meets is missing";
-            order.push_back({rank[cell], t0});
-            ++met;
-          }
-          std::sort(order.begin(), order.end());
-          for (size_t i = 1; i < order.size(); ++i)
-            EXPECT_LE(order[i - 1].second, order[i].second + 1e-9);
-        }
+      std::vector<OpenCellInSight> open;
+      order_front_to_back(supply.flat(), supply.region(), subject.sight(camera), visible, open);
+      EXPECT_TRUE(open.empty());
+      met += expect_order(subject.scene, boxes, camera, visible, kEveryPixel);
     }
   }
   EXPECT_GT(met, 10000);
+}
+
+/// What a stream gives, all batches in a row; all pixels left of `solved_to` are said to be solved.
+std::vector<VisibleCell> stream_of(CellSupply& supply, const Sight& sight, const Camera& camera,
+                                   int solved_to, int& batches) {
+  std::vector<uint32_t> seen;
+  for (int i = 0; i < camera.width * camera.height; ++i)
+    seen.push_back(i % camera.width < solved_to ? 1 : 0);
+  const auto solved = std::make_shared<const SolvedPixels>(seen, camera.width, camera.height);
+  std::vector<VisibleCell> visible;
+  const auto take = [&](const CellBatch& batch) {
+    visible.insert(visible.end(), batch.visible.begin(), batch.visible.end());
+    ++batches;
+    return true;
+  };
+  EXPECT_TRUE(supply.stream(
+      sight, 0, [&] { return solved; }, take));
+  return visible;
+}
+
+TEST(FrontToBack, AStreamHasTheSameOrderAndWhatIsSeenLaterIsStillThere) {
+  int met = 0, batches = 0;
+  for (uint64_t seed = 1; seed <= 10; ++seed) {
+    const RandomModel subject(seed);
+    const std::vector<Box> leaves = subject.leaves();
+    const std::vector<Camera> cameras = cameras_for(subject.model, 24, 16);
+    for (const Camera& camera : cameras) {
+      const Sight sight = subject.sight(camera);
+      const CellTree tree = open_cells(subject.scene, subject.settings);
+      CellSupply supply(subject.scene, tree, true, 2);
+      if (!supply.is_open()) continue;
+      constexpr int kSolved = 8;
+      const std::vector<VisibleCell> visible = stream_of(supply, sight, camera, kSolved, batches);
+      EXPECT_FALSE(supply.is_open());
+      const std::map<uint32_t, Box> boxes = boxes_of(supply.flat(), supply.region());
+      EXPECT_EQ(boxes.size(), supply.cell_count());
+      // Of all leaves that there are: unsolved pixels see what is in the stream and nothing else.
+      std::map<uint32_t, Box> all = boxes;
+      for (const Box& leaf : leaves) {
+        if (std::ranges::none_of(boxes, [&](const auto& b) { return b.second == leaf; }))
+          all[uint32_t(supply.cell_count() + all.size())] = leaf;
+      }
+      EXPECT_EQ(all.size(), leaves.size());
+      met += expect_order(subject.scene, all, camera, visible,
+                          [](int x, int) { return x >= kSolved; });
+      // Then pictures from elsewhere refine what they need first.
+      for (const Camera& other : cameras) {
+        std::vector<VisibleCell> seen;
+        std::vector<OpenCellInSight> open;
+        const Sight from(subject.sight(other));
+        order_front_to_back(supply.flat(), supply.region(), from, seen, open);
+        ASSERT_TRUE(supply.refined(open, from));
+        order_front_to_back(supply.flat(), supply.region(), from, seen, open);
+        EXPECT_TRUE(open.empty());
+        std::map<uint32_t, Box> now = boxes_of(supply.flat(), supply.region());
+        for (const Box& leaf : leaves) {
+          if (std::ranges::none_of(now, [&](const auto& b) { return b.second == leaf; }))
+            now[uint32_t(supply.cell_count() + now.size())] = leaf;
+        }
+        met += expect_order(subject.scene, now, other, seen, kEveryPixel);
+      }
+    }
+  }
+  EXPECT_GT(met, 10000);
+  EXPECT_GT(batches, 50) << "there are many batches";
+}
+
+TEST(FrontToBack, AStreamFromItsOwnThreadIsTheSame) {
+  const RandomModel subject(3);
+  const Camera camera = cameras_for(subject.model, 24, 16)[0];
+  const Sight sight = subject.sight(camera);
+  const auto whole = [&] {
+    const CellTree tree = open_cells(subject.scene, subject.settings);
+    CellSupply supply(subject.scene, tree, true, 2);
+    int batches = 0;
+    return stream_of(supply, sight, camera, 0, batches);
+  }();
+  ASSERT_GT(whole.size(), 50u);
+  const CellTree tree = open_cells(subject.scene, subject.settings);
+  CellSupply supply(subject.scene, tree, true, 2);
+  std::vector<VisibleCell> visible;
+  {
+    CellStream stream(supply, sight, 0);
+    const std::vector<uint32_t> nothing(24 * 16, 0);
+    for (bool is_last = false; !is_last;) {
+      const Result<CellBatch> batch = stream.next();
+      ASSERT_TRUE(batch);
+      visible.insert(visible.end(), batch->visible.begin(), batch->visible.end());
+      stream.hide(std::make_shared<const SolvedPixels>(nothing, 24, 16));
+      is_last = batch->is_last;
+    }
+  }
+  const auto same = [](const VisibleCell& a, const VisibleCell& b) {
+    return a.cell == b.cell && a.leaf_case == b.leaf_case && a.is_wide == b.is_wide;
+  };
+  EXPECT_TRUE(std::ranges::equal(visible, whole, same));
+
+  // Nobody need wait for its end.
+  const CellTree other = open_cells(subject.scene, subject.settings);
+  CellSupply abandoned(subject.scene, other, true, 2);
+  CellStream stream(abandoned, sight, 0);
+  EXPECT_TRUE(stream.next());
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ std::vector<std::string> validation_messages(const RasterDevice&) {
 }
 
 Result<std::unique_ptr<RasterTracer>> make_raster_tracer(std::shared_ptr<RasterDevice>,
-                                                         const Scene&, const CellTree&) {
+                                                         const Scene&, const CellTree&, int) {
   return gpu::list_devices().error();
 }
 

@@ -23,8 +23,9 @@ enum Binding : uint32_t {
   kInstancesBinding,
   kDrawsBinding,
   kLastSeenBinding,
+  kPlacesBinding,
 };
-inline constexpr uint32_t kBindings = 12;
+inline constexpr uint32_t kBindings = 13;
 
 /// What the device draws into.
 inline constexpr VkFormat kSeenFormat = VK_FORMAT_R32_UINT;

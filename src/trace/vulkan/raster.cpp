@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <functional>
 
-#include "trace/vulkan/flatten.h"
+#include "trace/vulkan/cell_stream.h"
+#include "trace/vulkan/cell_supply.h"
 #include "trace/vulkan/probe_layers.h"
 #include "trace/vulkan/scene_data.h"
 #include "trace/vulkan/tile_drawer.h"
@@ -12,85 +14,95 @@
 namespace whittle {
 namespace {
 
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// Supplies the drawer of tiles: with the scene, and with the cells in order.
+/// Brings together the supply of cells, their place on the device, and the drawer of tiles.
 class RasterTracerImpl final : public RasterTracer {
  public:
-  RasterTracerImpl(const Scene& scene, std::shared_ptr<RasterDevice> device)
-      : scene_(scene), device_(std::move(device)) {}
+  RasterTracerImpl(const Scene& scene, const CellTree& tree, std::shared_ptr<RasterDevice> device,
+                   int threads)
+      : scene_(scene),
+        device_(std::move(device)),
+        supply_(scene, tree, device_->doubles(), threads) {}
 
-  Status prepare(const CellTree& tree) {
-    Result<FlatCells> flat = flatten(scene_, tree, device_->doubles());
-    if (!flat) return flat.error();
-    flat_ = *std::move(flat);
+  Status prepare() {
     Result<gpu::Commands> commands = gpu::Commands::make(device_->gpu(), 3);
     if (!commands) return commands.error();
     commands_ = *std::move(commands);
     Result<Bindings> bindings = Bindings::make(*device_);
     if (!bindings) return bindings.error();
     bindings_ = *std::move(bindings);
-    Result<SceneData> data = SceneData::make(*device_, commands_, bindings_, flat_);
+    Result<SceneData> data = SceneData::make(*device_, commands_, bindings_,
+                                             flatten_half_spaces(scene_, device_->doubles()));
     if (!data) return data.error();
     data_ = *std::move(data);
-    // The device has them now.
-    cell_count_ = flat_.cell_count();
-    flat_.half_spaces = {};
-    flat_.cells = {};
-    flat_.words = {};
     Result<TileDrawer> drawer = TileDrawer::make(*device_, commands_, bindings_);
     if (!drawer) return drawer.error();
     drawer_ = *std::move(drawer);
-    return Done{};
+    if (supply_.is_open()) return Done{};
+    return send(supply_.at_once(nullptr));
   }
 
   const char* name() const override { return "vulkan-raster"; }
   Status status() const override { return status_; }
   RasterStats stats() const override { return stats_; }
+  void watch(std::function<void(const Frame&)> watch) override { watch_ = std::move(watch); }
 
   Frame render(const Camera& camera, const Progress& progress) override {
     Frame frame(camera.width, camera.height);
     stats_ = {};
-    stats_.cells = cell_count_;
+    start_ = Clock::now();
     drawer_.begin_picture();
-    if (flat_.root == kNoChild) return frame;
+    if (supply_.flat().root == kNoChild) return frame;
     const std::vector<PixelRect> tiles = tiles_of(pixels_covering(camera, world_region()));
     for (size_t i = 0; i < tiles.size() && status_; ++i) {
       const PixelRect& tile = tiles[i];
-      status_ = trace_tile(camera, tile, nullptr, stats_);
+      const auto show = [&] {
+        copy_hits(tile, frame);
+        watch_(frame);
+      };
+      status_ =
+          trace_tile(camera, tile, nullptr, stats_, watch_ ? std::function<void()>(show) : nullptr);
       if (!status_) break;
-      for (int y = 0; y < tile.height(); ++y)
-        std::memcpy(&frame.at(tile.x0, tile.y0 + y),
-                    drawer_.hits() + size_t(y) * size_t(tile.width()),
-                    size_t(tile.width()) * sizeof(Hit));
+      copy_hits(tile, frame);
       if (progress) progress(double(i + 1) / double(tiles.size()));
     }
+    stats_.cells = supply_.cell_count();
     if (!status_) return Frame(camera.width, camera.height);
     return frame;
+  }
+
+  void set_up(const Camera& camera) override {
+    for (const PixelRect& tile : tiles_of(pixels_covering(camera, world_region()))) {
+      if (!status_) return;
+      RasterStats unused;
+      status_ = trace_tile(camera, tile, nullptr, unused, nullptr, {.is_dry = true});
+    }
   }
 
   void probe(const Camera& camera, std::span<const PixelPosition> positions,
              std::span<Hit> hits) override {
     std::fill(hits.begin(), hits.end(), Hit{});
-    if (flat_.root == kNoChild || positions.empty()) return;
+    if (supply_.flat().root == kNoChild || positions.empty()) return;
     for (const PixelRect& tile : tiles_of(pixels_of(positions))) {
       for (const ProbeLayer& layer : probe_layers(positions, tile)) {
         if (!status_) return;
         RasterStats unused;
-        status_ = trace_tile(camera, tile, &layer, unused);
+        status_ = trace_tile(camera, tile, &layer, unused, nullptr);
         if (!status_) return std::fill(hits.begin(), hits.end(), Hit{});
-        for (const ProbeLayer::Place& place : layer.places)
-          hits[place.position] = drawer_.hits()[place.pixel];
+        for (size_t i = 0; i < layer.places.size(); ++i)
+          hits[layer.places[i].position] = drawer_.hits()[i];
       }
     }
   }
 
  private:
   Box world_region() const {
-    return {flat_.region.lo + scene_.origin, flat_.region.hi + scene_.origin};
+    return {supply_.region().lo + scene_.origin, supply_.region().hi + scene_.origin};
   }
 
   std::vector<PixelRect> tiles_of(const PixelRect& all) const {
@@ -102,27 +114,78 @@ class RasterTracerImpl final : public RasterTracer {
     return tiles;
   }
 
+  void copy_hits(const PixelRect& tile, Frame& frame) const {
+    for (int y = 0; y < tile.height(); ++y)
+      std::memcpy(&frame.at(tile.x0, tile.y0 + y),
+                  drawer_.hits() + size_t(y) * size_t(tile.width()),
+                  size_t(tile.width()) * sizeof(Hit));
+  }
+
+  Status send(const Result<CellBatch>& batch) {
+    return batch ? data_.append(batch->cells, batch->words) : batch.error();
+  }
+
+  /// `show`, if any, is called when some of the tile's pixels are known: others are background yet.
   Status trace_tile(const Camera& camera, const PixelRect& tile, const ProbeLayer* layer,
-                    RasterStats& stats) {
+                    RasterStats& stats, const std::function<void()>& show,
+                    const DrawPart& part = {}) {
     // A place may be anywhere in its pixel.
     const double margin = device_->margin(camera) + (layer ? 1 : 0);
-    const auto start = std::chrono::steady_clock::now();
-    order_front_to_back(flat_, camera, local_eye(scene_, camera), tile, margin, visible_);
-    stats.order_ms += milliseconds_since(start);
+    const Sight sight(camera, local_eye(scene_, camera), scene_.origin, tile, margin);
     const ViewData view =
         make_view_data(scene_, camera, tile, device_->doubles(), layer != nullptr, margin);
-    return drawer_.draw(view, visible_, flat_.cases, layer, stats);
+    if (supply_.is_open()) {
+      if (!layer) return draw_stream(sight, view, show);
+      if (Status done = send(supply_.at_once(&sight)); !done) return done;
+    }
+    const auto start = Clock::now();
+    order_front_to_back(supply_.flat(), supply_.region(), sight, visible_, open_);
+    if (!open_.empty()) {
+      if (Status done = send(supply_.refined(open_, sight)); !done) return done;
+      order_front_to_back(supply_.flat(), supply_.region(), sight, visible_, open_);
+    }
+    stats.order_ms += milliseconds_since(start);
+    return drawer_.draw(view, visible_, supply_.cell_count(), layer, stats, part);
+  }
+
+  /// The first picture: cells are refined while others are drawn.
+  Status draw_stream(const Sight& sight, const ViewData& view, const std::function<void()>& show) {
+    CellStream stream(supply_, sight, device_->first_batch_ms());
+    size_t sent = 0;  // the supply is not to be asked while the stream runs
+    DrawPart part{.is_first = true, .is_last = false, .wants_hits = bool(show)};
+    while (!part.is_last) {
+      // What it throws leaves cells behind that never come.
+      status_ = Error{ErrorKind::kMachine, "the cells were not refined"};
+      const Result<CellBatch> batch = stream.next();
+      status_ = Done{};
+      if (Status done = send(batch); !done) return done;
+      part.is_last = batch->is_last;
+      sent += batch->cells.size() / kCellWords;
+      if (Status done = drawer_.draw(view, batch->visible, sent, nullptr, stats_, part); !done)
+        return done;
+      if (part.is_first) stats_.first_ms = milliseconds_since(start_);
+      ++stats_.batches;
+      part.rank += uint32_t(batch->visible.size());
+      part.is_first = false;
+      if (part.is_last) break;
+      if (show) show();
+      stream.hide(std::make_shared<const SolvedPixels>(drawer_.seen(), view.tile_size[0],
+                                                       view.tile_size[1]));
+    }
+    return Done{};
   }
 
   const Scene& scene_;
   std::shared_ptr<RasterDevice> device_;  // outlives all that is made on it
-  FlatCells flat_;
-  uint32_t cell_count_ = 0;
+  CellSupply supply_;
   gpu::Commands commands_;
   Bindings bindings_;
   SceneData data_;
   TileDrawer drawer_;
   std::vector<VisibleCell> visible_;
+  std::vector<OpenCellInSight> open_;
+  std::function<void(const Frame&)> watch_;
+  Clock::time_point start_;
   RasterStats stats_;
   Status status_ = Done{};
 };
@@ -147,10 +210,10 @@ std::vector<std::string> validation_messages(const RasterDevice& device) {
 }
 
 Result<std::unique_ptr<RasterTracer>> make_raster_tracer(std::shared_ptr<RasterDevice> device,
-                                                         const Scene& scene,
-                                                         const CellTree& cells) {
-  auto tracer = std::make_unique<RasterTracerImpl>(scene, std::move(device));
-  if (Status done = tracer->prepare(cells); !done) return done.error();
+                                                         const Scene& scene, const CellTree& cells,
+                                                         int threads) {
+  auto tracer = std::make_unique<RasterTracerImpl>(scene, cells, std::move(device), threads);
+  if (Status done = tracer->prepare(); !done) return done.error();
   return std::unique_ptr<RasterTracer>(std::move(tracer));
 }
 

@@ -7,6 +7,7 @@
 // which cell is seen, and the facts are made once a pixel. How it works: docs/vulkan.md.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,7 +21,13 @@ namespace whittle {
 
 class RasterTracer : public Tracer {
  public:
+  /// Does all that render() does, but for drawing and finding facts: what the paper calls the time
+  /// to traverse and set up. Precondition: render() was called.
+  virtual void set_up(const Camera& camera) = 0;
   virtual RasterStats stats() const = 0;
+  /// From now on render() calls this with what is known so far, whenever it is more: pixels that
+  /// are background may become hits, hits stay what they are.
+  virtual void watch(std::function<void(const Frame&)> watch) = 0;
 };
 
 /// A device with the backend's shaders on it, for any number of tracers, used from one thread at a
@@ -37,9 +44,11 @@ bool is_software(const RasterDevice& device);
 /// All that the validation layer has complained about.
 std::vector<std::string> validation_messages(const RasterDevice& device);
 
-/// Precondition: all cells are refined (subdivide()). `scene` must outlive the tracer. A kMachine
-/// error if the device has no room for the cells.
+/// If cells are open, the first picture refines those that it needs, on that many threads (0: all),
+/// while others are drawn; later pictures refine first what they may see. `scene` must outlive the
+/// tracer. A kMachine error if the device has no room for the cells.
 Result<std::unique_ptr<RasterTracer>> make_raster_tracer(std::shared_ptr<RasterDevice> device,
-                                                         const Scene& scene, const CellTree& cells);
+                                                         const Scene& scene, const CellTree& cells,
+                                                         int threads = 0);
 
 }  // namespace whittle

@@ -26,6 +26,7 @@ Result<std::shared_ptr<RasterDevice>> RasterDevice::open(const RasterSettings& s
 }
 
 Status RasterDevice::choose(const RasterSettings& settings) {
+  first_batch_ms_ = settings.first_batch_ms;
   const gpu::DeviceInfo& info = gpu_->info();
   const VkPhysicalDeviceLimits& limits = gpu_->limits();
   doubles_ = settings.numbers == ShaderNumbers::kAuto ? info.float64

@@ -17,7 +17,8 @@ class RasterDevice {
   LeafCase shader_for(LeafCase leaf) const { return specialised_ ? leaf : kAnyLeaf; }
   /// Compiles it, unless that is done.
   Status need(LeafCase shader);
-  bool culling() const { return culling_; }  ///< cells behind others are left out
+  double first_batch_ms() const { return first_batch_ms_; }  ///< as in the settings
+  bool culling() const { return culling_; }                  ///< cells behind others are left out
   bool doubles() const { return doubles_; }  ///< shaders compute in double precision
   bool storage() const { return storage_; }  ///< and read storage buffers, not texel buffers
   uint32_t tile_side() const { return tile_side_; }  ///< pixels that it draws at a time, at most
@@ -30,6 +31,7 @@ class RasterDevice {
 
   std::unique_ptr<gpu::Device> gpu_;  // outlives the pipelines
   Pipelines pipelines_;
+  double first_batch_ms_ = 0;
   bool doubles_ = false, storage_ = false, specialised_ = false, culling_ = true;
   uint32_t tile_side_ = 0;
 };

@@ -21,7 +21,11 @@ struct RasterSettings {
   ShaderNumbers numbers = ShaderNumbers::kAuto;
   ShaderReads reads = ShaderReads::kAuto;
   ShaderCases shaders = ShaderCases::kSpecialised;
-  bool culling = true;    ///< cells behind others are left out; for measurements it can be off
+  bool culling = true;  ///< cells behind others are left out; for measurements it can be off
+  /// Of a picture whose cells are refined while others are drawn, the first batch is closed after
+  /// so many milliseconds of refining, each later one after twice as many as the one before:
+  /// drawing a batch costs something, however little is in it.
+  double first_batch_ms = 1;
   bool validate = false;  ///< use Vulkan's validation layer, and keep what it says
 };
 
@@ -32,6 +36,8 @@ struct RasterStats {
   uint64_t drawn_first = 0;   ///< those drawn because they are probably seen,
   uint64_t drawn_second = 0;  ///< and those that these did not hide; tiles add up
   uint32_t draws = 0;         ///< calls that did it
+  uint64_t batches = 0;       ///< in which cells came, if they were refined while others were drawn
+  double first_ms = 0;        ///< then, from the beginning until the first of them were drawn
   double order_ms = 0;        ///< on the host: cells sorted front to back
   double draw_ms = 0;         ///< on the device, 0 if it cannot tell: cells to pixels
   double resolve_ms = 0;      ///< pixels to facts

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+
 #include "gpu/vulkan.h"
 #include "lower/lower.h"
 #include "subdivide/subdivide.h"
@@ -22,11 +25,14 @@ struct Subject {
     scene = *lower(model);
     cells = subdivide(scene, {});
   }
-  std::unique_ptr<RasterTracer> tracer() const {
-    Result<std::shared_ptr<RasterDevice>> device = open_raster_device();
+  std::unique_ptr<RasterTracer> tracer() const { return tracer_of(cells); }
+  std::unique_ptr<RasterTracer> tracer_of(const CellTree& tree) const {
+    RasterSettings settings;
+    settings.first_batch_ms = 0;  // as many batches as there can be
+    Result<std::shared_ptr<RasterDevice>> device = open_raster_device(settings);
     EXPECT_TRUE(device) << device.error().message;
     if (!device) return nullptr;
-    Result<std::unique_ptr<RasterTracer>> made = make_raster_tracer(*device, scene, cells);
+    Result<std::unique_ptr<RasterTracer>> made = make_raster_tracer(*device, scene, tree);
     EXPECT_TRUE(made) << made.error().message;
     return made ? *std::move(made) : nullptr;
   }
@@ -44,6 +50,86 @@ TEST(Raster, SaysWhatItDid) {
   EXPECT_GT(tracer->stats().in_view, tracer->stats().cells / 2);
   EXPECT_LE(tracer->stats().in_view, tracer->stats().cells);
   EXPECT_GT(tracer->stats().draw_ms, 0);
+}
+
+bool same(const Hit& a, const Hit& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+void expect_same(std::span<const Hit> a, std::span<const Hit> b) {
+  EXPECT_TRUE(std::ranges::equal(a, b, same));
+}
+
+/// Cells enough for several batches, many of them hidden.
+std::string holed_block() {
+  std::string text = "difference() { translate([-20, -8, -20]) cube([40, 16, 40]);";
+  for (int x = -16; x <= 16; x += 8)
+    for (int z = -16; z <= 16; z += 8)
+      text += "translate([" + std::to_string(x) + ", 0, " + std::to_string(z) +
+              "]) rotate([90, 0, 0]) cylinder(r = 3, h = 12, center = true);";
+  return text + "}";
+}
+
+TEST(Raster, RefinesWhileItDrawsAndLeavesOutWhatIsHidden) {
+  const Subject subject(holed_block());
+  const CellTree open = open_cells(subject.scene, {});
+  const auto all = subject.tracer(), streaming = subject.tracer_of(open);
+  ASSERT_TRUE(all && streaming);
+  const std::vector<Camera> cameras = cameras_for(subject.model, 64, 48);
+  const Frame expected = all->render(cameras[0], {});
+  EXPECT_EQ(all->stats().batches, 0u);
+
+  // What is shown on the way is a part of the picture, and grows.
+  std::vector<int> shown;
+  streaming->watch([&](const Frame& frame) {
+    shown.push_back(0);
+    for (size_t i = 0; i < frame.hits.size(); ++i) {
+      if (!frame.hits[i].hit()) continue;
+      EXPECT_TRUE(same(frame.hits[i], expected.hits[i]));
+      ++shown.back();
+    }
+  });
+  expect_same(streaming->render(cameras[0], {}).hits, expected.hits);
+  ASSERT_TRUE(streaming->status());
+  const RasterStats stats = streaming->stats();
+  EXPECT_GT(stats.batches, 3u);
+  EXPECT_EQ(shown.size(), stats.batches - 1);
+  EXPECT_TRUE(std::ranges::is_sorted(shown));
+  EXPECT_GT(shown.back(), 0);
+  EXPECT_GT(stats.first_ms, 0);
+  EXPECT_LT(stats.cells, all->stats().cells) << "some are hidden";
+
+  // Later pictures see what was left out.
+  streaming->watch(nullptr);
+  for (const Camera& camera : cameras)
+    expect_same(streaming->render(camera, {}).hits, all->render(camera, {}).hits);
+  EXPECT_EQ(streaming->stats().batches, 0u);
+}
+
+TEST(Raster, PlacesCanBeTheFirstThatIsLookedAt) {
+  const Subject subject(holed_block());
+  const CellTree open = open_cells(subject.scene, {});
+  const auto all = subject.tracer(), lazy = subject.tracer_of(open);
+  ASSERT_TRUE(all && lazy);
+  const Camera camera = cameras_for(subject.model, 16, 12)[0];
+  std::vector<PixelPosition> places;
+  for (float y = 0.25f; y < 12; y += 0.5f)
+    for (float x = 0.25f; x < 16; x += 0.5f) places.push_back({x, y});
+  std::vector<Hit> expected(places.size()), seen(places.size());
+  all->probe(camera, places, expected);
+  lazy->probe(camera, places, seen);
+  expect_same(seen, expected);
+}
+
+TEST(Raster, SettingUpDrawsNothingAndHarmsNothing) {
+  const Subject subject("difference() { cube(10, center = true); sphere(r = 6); }");
+  const auto tracer = subject.tracer();
+  ASSERT_TRUE(tracer);
+  const Camera camera = cameras_for(subject.model, 32, 24)[0];
+  const Frame expected = tracer->render(camera, {});
+  tracer->set_up(camera);
+  EXPECT_TRUE(tracer->status());
+  expect_same(tracer->render(camera, {}).hits, expected.hits);
 }
 
 TEST(Raster, AnEmptySolidIsAnEmptyPicture) {

@@ -1,21 +1,41 @@
 // The scene on the device: the buffers that the shaders read half-spaces, cells and literals from.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "gpu/commands.h"
 #include "trace/vulkan/bindings.h"
-#include "trace/vulkan/flatten.h"
 
 namespace whittle {
 
 class SceneData {
  public:
-  /// Sends all that shaders read of `flat` and binds it. A kMachine error if the device has no room
-  /// for it, or if its cells cannot be told apart by their ranks.
+  /// Sends the half-spaces and binds all buffers. The arguments must outlive it.
   static Result<SceneData> make(const RasterDevice& device, gpu::Commands& commands,
-                                const Bindings& bindings, const FlatCells& flat);
+                                const Bindings& bindings, std::span<const uint32_t> half_spaces);
+
+  /// Sends cells and words behind those that are there. Not while the device reads them. A kMachine
+  /// error if it has no room for them.
+  Status append(std::span<const uint32_t> cells, std::span<const uint32_t> words);
 
  private:
-  ReadBuffer half_spaces_, cells_, words_;
+  /// Words in a buffer that grows.
+  struct Store {
+    Binding binding;
+    VkFormat format;
+    ReadBuffer to;
+    VkDeviceSize used = 0;  ///< bytes
+  };
+  Status append(Store& store, std::span<const uint32_t> words);
+  Status grow(Store& store, VkDeviceSize bytes);
+
+  const RasterDevice* device_ = nullptr;
+  gpu::Commands* commands_ = nullptr;
+  const Bindings* bindings_ = nullptr;
+  Store half_spaces_{kHalfSpacesBinding, VK_FORMAT_R32G32B32A32_UINT, {}, 0};
+  Store cells_{kCellsBinding, VK_FORMAT_R32G32B32A32_UINT, {}, 0};
+  Store words_{kWordsBinding, VK_FORMAT_R32_UINT, {}, 0};
 };
 
 }  // namespace whittle

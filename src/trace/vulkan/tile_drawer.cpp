@@ -49,6 +49,8 @@ constexpr gpu::ImageUse kMeasured{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
 constexpr gpu::ImageUse kResolved{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                   VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+constexpr gpu::ImageUse kCopied{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
+                                VK_ACCESS_2_TRANSFER_READ_BIT};
 
 }  // namespace
 
@@ -85,7 +87,8 @@ Status TileDrawer::resize(int width, int height) {
   width_ = height_ = 0;
   Result<Image> seen =
       Image::make(gpu(), kSeenFormat, side_for(width), side_for(height),
-                  VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT);
+                  VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                      VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
   if (!seen) return seen.error();
   seen_ = *std::move(seen);
   Result<Image> depth =
@@ -113,41 +116,50 @@ Status TileDrawer::resize(int width, int height) {
                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Placement::kDevice);
       !done)
     return done;
+  if (Status done = make_buffer(places_, (pixels + 1) * sizeof(uint32_t),
+                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Placement::kUpload);
+      !done)
+    return done;
+  bindings_->bind(kPlacesBinding, places_);
   bindings_->bind(kPyramidBinding, pyramid_);
   bindings_->bind(kDepthsBinding, depth_);
   bindings_->bind(kPositionsBinding, positions_);
   bindings_->bind(kHitsBinding, hits_);
   bindings_->bind(kSeenBinding, seen_);
+  seen_copy_ = {};
   width_ = width;
   height_ = height;
   return Done{};
 }
 
 Status TileDrawer::make_last_seen(size_t cells) {
-  const VkDeviceSize bytes = (cells + 1) * sizeof(uint32_t);
-  if (last_seen_.bytes() >= bytes) return Done{};
-  if (Status done =
-          make_buffer(last_seen_, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Placement::kRead);
+  const VkDeviceSize bytes = (cells + 1) * sizeof(uint32_t), old = last_seen_.bytes();
+  if (old >= bytes) return Done{};
+  Buffer before = std::move(last_seen_);
+  if (Status done = make_buffer(last_seen_, std::max(bytes, old * 3 / 2),
+                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Placement::kRead);
       !done)
     return done;
-  std::memset(last_seen_.mapped(), 0, bytes);
+  auto* const to = static_cast<std::byte*>(last_seen_.mapped());
+  if (old > 0) std::memcpy(to, before.mapped(), old);
+  std::memset(to + old, 0, last_seen_.bytes() - old);
   bindings_->bind(kLastSeenBinding, last_seen_);
   return Done{};
 }
 
-Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells,
-                        std::span<const LeafCase> cases, const ProbeLayer* layer,
-                        RasterStats& stats) {
+Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells, size_t cell_count,
+                        const ProbeLayer* layer, RasterStats& stats, const DrawPart& part) {
   if (Status done = resize(view.tile_size[0], view.tile_size[1]); !done) return done;
-  if (Status done = make_last_seen(cases.size()); !done) return done;
+  if (Status done = make_last_seen(cell_count); !done) return done;
   const bool has_asked = layer != nullptr;
+  const bool culls = device_->culling(), has_depth = has_asked || !part.is_first;
   const auto since = std::max(picture_, 2u) - 1;
   if (Status done =
-          list_.fill(*device_, *bindings_, cells, cases,
-                     {static_cast<const uint32_t*>(last_seen_.mapped()), cases.size()}, since,
-                     !device_->culling() ? Hiding::kNone
-                     : has_asked         ? Hiding::kEverything
-                                         : Hiding::kPicture);
+          list_.fill(*device_, *bindings_, cells, part.rank,
+                     {static_cast<const uint32_t*>(last_seen_.mapped()), cell_count}, since,
+                     !culls      ? Hiding::kNone
+                     : has_asked ? Hiding::kEverything
+                                 : Hiding::kPicture);
       !done)
     return done;
   ViewData sent = view;
@@ -157,19 +169,32 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
     std::memcpy(positions_.buffer.mapped(), layer->positions.data(),
                 layer->positions.size() * sizeof(PixelPosition));
     std::memcpy(asked_.mapped(), layer->depth.data(), layer->depth.size() * sizeof(float));
+    auto* to = static_cast<uint32_t*>(places_.mapped());
+    *to++ = uint32_t(layer->places.size());
+    for (const ProbeLayer::Place& place : layer->places) *to++ = place.pixel;
+  }
+  if (!part.is_last && seen_copy_.bytes() == 0) {
+    const VkDeviceSize pixels = VkDeviceSize(width_) * VkDeviceSize(height_);
+    if (Status done = make_buffer(seen_copy_, pixels * sizeof(uint32_t),
+                                  VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kRead);
+        !done)
+      return done;
   }
 
   Result<VkCommandBuffer> recording = commands_->begin();
   if (!recording) return recording.error();
+  if (part.is_dry) return commands_->run();
   commands_->stamp();
   if (has_asked) record_asked(*recording);
   for (const DrawList::Pass pass : {DrawList::kFirst, DrawList::kSecond}) {
-    if (pass == DrawList::kSecond && !device_->culling()) break;
+    if (pass == DrawList::kSecond && !culls) break;
     if (list_.is_tested(pass)) record_test(*recording, pass);
-    record_drawing(*recording, pass, has_asked);
+    const bool is_first = part.is_first && pass == DrawList::kFirst;
+    record_drawing(*recording, pass, is_first, has_depth || pass == DrawList::kSecond);
   }
+  if (!part.is_last) record_copy_of_seen(*recording);
   commands_->stamp();
-  record_resolving(*recording);
+  if (part.is_last || part.wants_hits) record_resolving(*recording, layer);
   commands_->stamp();
   if (Status done = commands_->run(); !done) return done;
   const std::vector<double> times = commands_->intervals();
@@ -179,8 +204,8 @@ Status TileDrawer::draw(const ViewData& view, std::span<const VisibleCell> cells
   }
   stats.in_view += cells.size();
   stats.drawn_first += list_.drawn(DrawList::kFirst);
-  if (device_->culling()) stats.drawn_second += list_.drawn(DrawList::kSecond);
-  stats.draws += list_.size() * (device_->culling() ? 2 : 1);
+  if (culls) stats.drawn_second += list_.drawn(DrawList::kSecond);
+  stats.draws += list_.size() * (culls ? 2 : 1);
   return Done{};
 }
 
@@ -215,12 +240,13 @@ void TileDrawer::record_test(VkCommandBuffer commands, DrawList::Pass pass) cons
   gpu::change_use(commands, depth_.handle(), depth_.aspect(), kMeasured, kTested);
 }
 
-void TileDrawer::record_drawing(VkCommandBuffer commands, DrawList::Pass pass,
-                                bool has_asked) const {
+void TileDrawer::record_drawing(VkCommandBuffer commands, DrawList::Pass pass, bool is_first,
+                                bool has_depth) {
   const VkExtent2D extent{uint32_t(width_), uint32_t(height_)};
-  const bool is_first = pass == DrawList::kFirst, has_depth = has_asked || !is_first;
-  if (!has_depth) gpu::change_use(commands, depth_.handle(), depth_.aspect(), kUnused, kTested);
-  gpu::change_use(commands, seen_.handle(), seen_.aspect(), is_first ? kUnused : kDrawn, kDrawn);
+  gpu::change_use(commands, depth_.handle(), depth_.aspect(), has_depth ? kTested : kUnused,
+                  kTested);
+  gpu::change_use(commands, seen_.handle(), seen_.aspect(), is_first ? kUnused : seen_use_, kDrawn);
+  seen_use_ = kDrawn;
 
   VkRenderingAttachmentInfo color{};
   color.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
@@ -251,11 +277,28 @@ void TileDrawer::record_drawing(VkCommandBuffer commands, DrawList::Pass pass,
   vkCmdEndRendering(commands);
 }
 
-void TileDrawer::record_resolving(VkCommandBuffer commands) const {
-  gpu::change_use(commands, seen_.handle(), seen_.aspect(), kDrawn, kResolved);
+void TileDrawer::record_copy_of_seen(VkCommandBuffer commands) {
+  gpu::change_use(commands, seen_.handle(), seen_.aspect(), seen_use_, kCopied);
+  seen_use_ = kCopied;
+  VkBufferImageCopy copy{};
+  copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  copy.imageExtent = {uint32_t(width_), uint32_t(height_), 1};
+  vkCmdCopyImageToBuffer(commands, seen_.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                         seen_copy_.handle(), 1, &copy);
+  gpu::wait_for(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+}
+
+void TileDrawer::record_resolving(VkCommandBuffer commands, const ProbeLayer* layer) {
+  gpu::change_use(commands, seen_.handle(), seen_.aspect(), seen_use_, kResolved);
+  seen_use_ = kResolved;
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, device_->pipelines().resolve.get());
   bindings_->use(commands, VK_PIPELINE_BIND_POINT_COMPUTE);
-  vkCmdDispatch(commands, groups(width_), groups(height_), 1);
+  constexpr uint32_t kGroup = kGroupSide * kGroupSide;
+  if (layer != nullptr)
+    vkCmdDispatch(commands, (uint32_t(layer->places.size()) + kGroup - 1) / kGroup, 1, 1);
+  else
+    vkCmdDispatch(commands, groups(width_), groups(height_), 1);
   gpu::wait_for(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                 VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT,
                 VK_ACCESS_2_HOST_READ_BIT);

@@ -1,6 +1,7 @@
 #version 460
 // From the cell that a pixel sees to the facts: distance, owner, normal. The rules are those of
-// docs/conventions.md; once a pixel, whatever stands behind it.
+// docs/conventions.md; once a pixel, whatever stands behind it. All pixels of the tile, or in a row
+// those that look at places of their own.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "numbers.glsl"
@@ -22,6 +23,9 @@ layout(set = 0, binding = 6) writeonly buffer Hits { uint hits[]; };
 
 // By cell: the picture in which it was last seen.
 layout(set = 0, binding = 11) writeonly buffer LastSeen { uint last_seen[]; };
+
+// Where pixels look at places of their own: how many do, and their numbers.
+layout(set = 0, binding = 12) readonly buffer Places { uint places[]; };
 
 const uint kFacts = 5;  // words a pixel: distance, id, normal
 
@@ -105,9 +109,16 @@ uint owning_step(uint first, uint count, Vec3 point) {
 }
 
 void main() {
-  const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  const bool probes = view.probes != 0;
+  // Those in the last workgroup that have no place do the last one again.
+  const uint place = min(gl_WorkGroupID.x * 64 + gl_LocalInvocationIndex, places[0] - 1);
+  const int number = int(places[(place + 1) * uint(probes)]);
+  const ivec2 pixel = mix(ivec2(gl_GlobalInvocationID.xy),
+                          ivec2(number % view.tile_size.x, number / view.tile_size.x),
+                          bvec2(probes));
   if (any(greaterThanEqual(pixel, view.tile_size))) return;
-  const uint at = uint(pixel.y * view.tile_size.x + pixel.x) * kFacts;
+  const uint at =
+      mix(uint(pixel.y * view.tile_size.x + pixel.x), place, probes) * kFacts;
   const uint cell = texelFetch(seen, pixel, 0).x;
   if (cell != 0) last_seen[cell - 1] = view.picture;
   Change change;

@@ -1,0 +1,123 @@
+#include "trace/vulkan/cell_supply.h"
+
+#include <chrono>
+#include <utility>
+
+namespace whittle {
+namespace {
+
+/// Subtrees begin so many splits below the region, or where refining has come to before.
+constexpr uint32_t kTopSplits = 8;
+/// So many of them are refined side by side: enough for all threads.
+constexpr size_t kJobsAtOnce = 16;
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+CellSupply::CellSupply(const Scene& scene, const CellTree& tree, bool doubles, int threads)
+    : scene_(scene), tree_(tree), doubles_(doubles), workers_(threads), refiners_(workers_) {
+  if (tree_.root == nullptr) return;
+  flat_.root = kOpenBit;
+  flat_.open.push_back(tree_.root);
+}
+
+bool CellSupply::is_open() const {
+  return whittle::is_open(flat_.root) && tree_.root->link().kind() == CellKind::kOpen;
+}
+
+Result<CellBatch> CellSupply::at_once(const Sight* sight) {
+  if (is_open()) refine_levels(tree_, workers_);
+  CellBatch all;
+  const auto take = [&](CellBatch batch) {
+    all = std::move(batch);
+    return true;
+  };
+  const Status done = deliver(
+      sight, kInfinity, [] { return nullptr; }, take);
+  if (!done) return done.error();
+  return all;
+}
+
+Result<CellBatch> CellSupply::refined(const std::vector<OpenCellInSight>& open,
+                                      const Sight& sight) {
+  std::vector<Job> jobs;
+  for (const OpenCellInSight& cell : open) jobs.push_back({cell.cell, cell.box, cell.place, 0});
+  CellBatch batch;
+  if (Status done = run(jobs, {&sight, nullptr}, batch); !done) return done.error();
+  return batch;
+}
+
+Status CellSupply::stream(const Sight& sight, double first_batch_ms,
+                          const std::function<Solved()>& solved, const Take& take) {
+  refine_levels(tree_, workers_);
+  return deliver(&sight, first_batch_ms, solved, take);
+}
+
+Status CellSupply::deliver(const Sight* sight, double milliseconds,
+                           const std::function<Solved()>& solved, const Take& take) {
+  std::vector<Job> items, jobs;
+  if (tree_.root != nullptr) items.push_back({tree_.root, tree_.region, {}, 0});
+  CellBatch batch;
+  Clock::time_point start = Clock::now();
+  while (!items.empty()) {
+    jobs.clear();
+    while (!items.empty() && (sight == nullptr || jobs.size() < kJobsAtOnce)) {
+      const Job now = items.back();
+      items.pop_back();
+      const CellLink link = now.cell->link();
+      if (link.kind() != CellKind::kNode || now.depth >= kTopSplits) {
+        jobs.push_back(now);
+        continue;
+      }
+      const double split = now.cell->split;
+      const auto node = uint32_t(flat_.nodes.size());
+      flat_.nodes.push_back({.split = split, .axis = uint8_t(link.axis())});
+      flat_.at(now.place) = node;
+      // What is pushed last comes first.
+      const uint32_t first = sight && sight->starts_above(link.axis(), split) ? 1 : 0;
+      for (const uint32_t side : {1 - first, first}) {
+        Box box = now.box;
+        (side == 0 ? box.hi : box.lo)[link.axis()] = split;
+        items.push_back({link.children() + side, box, {node, side}, now.depth + 1});
+      }
+    }
+    const Solved hides = solved();
+    if (Status done = run(jobs, {sight, hides.get()}, batch); !done) return done;
+    if (!items.empty() && (batch.cells.empty() || milliseconds_since(start) < milliseconds))
+      continue;
+    batch.is_last = items.empty();
+    if (!take(std::exchange(batch, {}))) return Done{};
+    milliseconds *= 2;
+    start = Clock::now();
+  }
+  return Done{};
+}
+
+Status CellSupply::run(const std::vector<Job>& jobs, const Wanted& wanted, CellBatch& batch) {
+  std::vector<FlatPart> parts(jobs.size());
+  std::vector<Status> done(jobs.size(), Status(Done{}));
+  workers_.for_parts(jobs.size(), 1, [&](size_t first, size_t last, size_t worker) {
+    Refiner& refiner = *refiners_.of(worker, tree_);
+    for (size_t i = first; i < last; ++i)
+      done[i] = flatten(scene_, *jobs[i].cell, jobs[i].box, wanted, refiner, doubles_, parts[i]);
+  });
+  for (size_t i = 0; i < jobs.size(); ++i) {
+    if (!done[i]) return done[i];
+    append(parts[i], jobs[i].place, cell_count_, word_count_, flat_);
+    batch.visible.insert(batch.visible.end(), parts[i].visible.begin(), parts[i].visible.end());
+  }
+  cell_count_ += uint32_t(flat_.cells.size() / kCellWords);
+  word_count_ += uint32_t(flat_.words.size());
+  batch.cells.insert(batch.cells.end(), flat_.cells.begin(), flat_.cells.end());
+  batch.words.insert(batch.words.end(), flat_.words.begin(), flat_.words.end());
+  flat_.cells.clear();
+  flat_.words.clear();
+  return Done{};
+}
+
+}  // namespace whittle

@@ -1,0 +1,73 @@
+// Cells for the device, refined and flattened as pictures need them, on many threads.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "base/workers.h"
+#include "subdivide/refine.h"
+#include "trace/vulkan/flatten.h"
+#include "trace/vulkan/front_to_back.h"
+
+namespace whittle {
+
+/// Cells that go to the device together, behind those that have gone before.
+struct CellBatch {
+  std::vector<uint32_t> cells, words;  ///< as in FlatCells
+  std::vector<VisibleCell> visible;    ///< of them, in the order in which rays meet them
+  bool is_last = false;                ///< of a stream
+};
+
+/// The host's tree of the cells that were sent. Used by one thread at a time. Scene and tree must
+/// outlive it.
+class CellSupply {
+ public:
+  CellSupply(const Scene& scene, const CellTree& tree, bool doubles, int threads);
+
+  const Box& region() const { return tree_.region; }
+  const FlatCells& flat() const { return flat_; }
+  uint32_t cell_count() const { return cell_count_; }
+  /// Nothing of it has been looked at, and there is something to be refined.
+  bool is_open() const;
+
+  /// All that the tile may see, or everything if there is none; in no order. Nothing has come
+  /// before.
+  Result<CellBatch> at_once(const Sight* sight);
+  /// What of these cells the tile may see.
+  Result<CellBatch> refined(const std::vector<OpenCellInSight>& open, const Sight& sight);
+
+  /// What has been solved so far.
+  using Solved = std::shared_ptr<const SolvedPixels>;
+  /// Takes a batch; false if no more are wanted.
+  using Take = std::function<bool(CellBatch)>;
+  /// What the tile may see of a tree that is_open(), front to back in batches: no ray meets a cell
+  /// of a later batch before one of an earlier. `first_batch_ms`: as in RasterSettings. `solved` is
+  /// asked now and then for what has been drawn, or null; what that hides stays open. The last
+  /// batch says so, and may be empty. If `take` ends it early, no cells are of use any more.
+  Status stream(const Sight& sight, double first_batch_ms, const std::function<Solved()>& solved,
+                const Take& take);
+
+ private:
+  struct Job {
+    const Cell* cell;
+    Box box;
+    Place place;
+    uint32_t depth;
+  };
+  /// A batch ends when it has taken so long, or with everything.
+  Status deliver(const Sight* sight, double milliseconds, const std::function<Solved()>& solved,
+                 const Take& take);
+  /// Flattens the jobs side by side, and puts what they give into its places.
+  Status run(const std::vector<Job>& jobs, const Wanted& wanted, CellBatch& batch);
+
+  const Scene& scene_;
+  const CellTree tree_;
+  const bool doubles_;
+  Workers workers_;
+  PerWorker<RefinerLease> refiners_;
+  FlatCells flat_;  ///< without the words that have gone
+  uint32_t cell_count_ = 0, word_count_ = 0;
+};
+
+}  // namespace whittle
