@@ -25,7 +25,7 @@ struct RasterSettings {
   /// Of a picture whose cells are refined while others are drawn, the first batch is closed after
   /// so many milliseconds of refining, each later one after twice as many as the one before:
   /// drawing a batch costs something, however little is in it.
-  double first_batch_ms = 1;
+  double first_batch_ms = 3;
   bool validate = false;  ///< use Vulkan's validation layer, and keep what it says
 };
 
