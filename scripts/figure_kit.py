@@ -38,8 +38,8 @@ def font(size):
     return ImageFont.truetype("DejaVuSans.ttf", size)
 
 
-def save(figure, name):
-    """Writes docs/images/NAME whole or not at all."""
-    path = os.path.join(ROOT, "docs", "images", name)
+def save(figure, name, folder=os.path.join(ROOT, "docs", "images")):
+    """Writes FOLDER/NAME whole or not at all."""
+    path = os.path.join(folder, name)
     figure.save(path + ".part", "PNG", optimize=True)
     os.replace(path + ".part", path)

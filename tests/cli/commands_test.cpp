@@ -220,14 +220,19 @@ TEST_F(Bench, TheTableNamesTheStages) {
     EXPECT_NE(done.out.find(stage), std::string::npos) << stage;
 }
 
-TEST_F(Bench, AWrongPictureIsNotMeasured) {
+TEST_F(Bench, WhatIgnoredCellsHideIsCountedAndNotWrong) {
   good({"model", "cheese", "60", "-o", "cheese.csg"});
-  const Ended wrong = run({"bench", "cheese.csg", "--repeat", "1", "--json", "--leaf-size", "2",
-                           "--small-cells", "ignore", "--pixel-threshold", "100"});
-  EXPECT_EQ(wrong.exit_code, 1);
-  EXPECT_EQ(wrong.out, "");
-  EXPECT_EQ(wrong.err.find("cheese.csg: error: the picture is wrong at "), 0u) << wrong.err;
-  EXPECT_NE(wrong.err.find("where the oracle sees id "), std::string::npos) << wrong.err;
+  std::vector<std::string> arguments = {"bench",  "cheese.csg",    "--repeat", "1",
+                                        "--json", "--leaf-size",   "2",        "--pixel-threshold",
+                                        "100",    "--small-cells", "ignore"};
+  const Json ignored = Json::parse(good(arguments).out)[0];
+  EXPECT_GT(ignored["lost_to_ignored_cells"], 100);
+  EXPECT_EQ(ignored["wrong"], 0);
+  EXPECT_GT(ignored["checked"], 2000);
+  arguments.back() = "trace";
+  const Json traced = Json::parse(good(arguments).out)[0];
+  EXPECT_FALSE(traced.contains("lost_to_ignored_cells"));
+  EXPECT_EQ(traced["wrong"], 0);
 }
 
 TEST_F(Bench, TheOracleCanBeMeasuredToo) {
