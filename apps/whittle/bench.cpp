@@ -177,6 +177,10 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   }
   const Camera camera = renderer->camera(a.view);
   if (Status prepared = renderer->prepare(camera); !prepared) return prepared.error();
+  if (dynamic_cast<RasterTracer*>(&renderer->tracer()) != nullptr) {
+    // Shaders are compiled when they are first used.
+    if (const Result<Frame> first = renderer->trace(camera); !first) return first.error();
+  }
   TraceStats stats;
   SubdivideStats cells, looked_at;
   const auto statistics = [&] {
