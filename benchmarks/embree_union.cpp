@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -24,6 +23,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/timing.h"
 #include "base/workers.h"
 #include "io/generate.h"
 #include "io/read.h"
@@ -32,8 +32,6 @@
 
 namespace whittle {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 struct Ball {
   Vec3 center;
@@ -229,16 +227,11 @@ PictureCheck check(const std::vector<Ball>& balls, const Camera& camera, const D
   return {looked_at, hits, wrong};
 }
 
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
-}
-
 template <class Work>
 double milliseconds(const Work& work) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   work();
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return watch.milliseconds();
 }
 
 [[noreturn]] void fail(const std::string& why) {

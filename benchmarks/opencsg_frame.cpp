@@ -16,7 +16,6 @@
 #include <opencsg.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
@@ -27,6 +26,7 @@
 #include <vector>
 
 #include "base/box.h"
+#include "base/timing.h"
 #include "io/generate.h"
 #include "io/read.h"
 #include "model/facets.h"
@@ -35,8 +35,6 @@
 
 namespace whittle {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 struct Options {
   int n = 1000, size = 512, segments = 32, threads = 2, repeat = 5;
@@ -297,16 +295,11 @@ Difference difference(const std::vector<double>& theirs, const Frame& ours) {
   return d;
 }
 
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  return values[values.size() / 2];
-}
-
 template <class Work>
 double milliseconds(const Work& work) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   work();
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return watch.milliseconds();
 }
 
 Options read_options(int argc, char** argv) {

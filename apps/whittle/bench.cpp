@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <iterator>
@@ -15,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "base/timing.h"
 #include "base/workers.h"
 #include "command_line.h"
 #include "commands.h"
@@ -30,8 +30,6 @@ namespace whittle {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Clock = std::chrono::steady_clock;
-
 constexpr CommandHelp kHelp = {
     "whittle bench",
     "Measures every stage: the median milliseconds of parse, lower, subdivide (all\n"
@@ -56,22 +54,6 @@ struct BenchArguments {
   SubdivisionArguments subdivision;
   WithoutEffect without_effect;
 };
-
-class Stopwatch {
- public:
-  double milliseconds() const {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start_).count();
-  }
-
- private:
-  Clock::time_point start_ = Clock::now();
-};
-
-double median(std::vector<double> values) {
-  std::ranges::sort(values);
-  const size_t middle = values.size() / 2;
-  return values.size() % 2 != 0 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
-}
 
 /// What is measured of the backend that draws cells, and of no other: the paper's quantities
 /// (section 4.1) and what they are compared with.

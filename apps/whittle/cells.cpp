@@ -1,7 +1,7 @@
 // whittle cells FILE -o OUT.png: the cells that space is cut into, over the model.
-#include <chrono>
 #include <string>
 
+#include "base/timing.h"
 #include "command_line.h"
 #include "commands.h"
 #include "console.h"
@@ -38,12 +38,6 @@ struct CellsArguments {
   WithoutEffect without_effect;
   bool wants_statistics = false;
 };
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 void add_options(CommandLine& line, CellsArguments& a) {
   CLI::App& app = line.app();
@@ -88,7 +82,7 @@ Result<Picture> draw(const CellsArguments& a, Renderer& renderer) {
 }
 
 Status run(CellsArguments& a) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   if (a.output.empty()) return Error{ErrorKind::kUsage, "give -o FILE.png to make a picture"};
   if (a.renderer.backend == Backend::kOracle) {
     return Error{ErrorKind::kUsage, "backend oracle has no cells"};
@@ -99,7 +93,7 @@ Status run(CellsArguments& a) {
   suit_style(a.shading.style, a.loading);
   const Result<Read> read = load(a.file, a.loading);
   if (!read) return read.error();
-  RunTimes times{.read = milliseconds_since(start)};
+  RunTimes times{.read = watch.milliseconds()};
   apply(a.subdivision, a.renderer);
   a.shading.background = !a.no_background;
   Result<Renderer> renderer = Renderer::make(read->model, a.renderer);
@@ -109,10 +103,10 @@ Status run(CellsArguments& a) {
   const Result<std::string> bytes =
       encode(FileFormat::kPng, Frame(), *picture, a.no_background, a.output);
   if (!bytes) return bytes.error();
-  const auto before_writing = Clock::now();
+  const Stopwatch writing;
   if (Status written = write_output(a.output, *bytes); !written) return written;
-  times.write = milliseconds_since(before_writing);
-  times.total = milliseconds_since(start);
+  times.write = writing.milliseconds();
+  times.total = watch.milliseconds();
   if (a.wants_statistics) {
     say(statistics(read->model, *renderer, a.renderer.backend == Backend::kAuto, times));
   }

@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/timing.h"
 #include "command_line.h"
 #include "commands.h"
 #include "console.h"
@@ -61,12 +61,6 @@ struct RenderArguments {
   WithoutEffect without_effect;
   bool wants_statistics = false;
 };
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 void add_options(CommandLine& line, RenderArguments& a) {
   CLI::App& app = line.app();
@@ -153,7 +147,7 @@ Status draw(const RenderArguments& a, const std::vector<Output>& outputs, const 
 }
 
 Status render(RenderArguments& a) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   const Result<std::vector<Output>> outputs = choose_outputs(a);
   if (!outputs) return outputs.error();
   if (Status possible = check_shadows(a.shading); !possible) return possible;
@@ -169,7 +163,7 @@ Status render(RenderArguments& a) {
   if (bounds(model).box.is_empty() && !a.loading.quiet) {
     say(fmt::format("{}: warning: the solid is empty", model.file));
   }
-  RunTimes times{.read = milliseconds_since(start)};
+  RunTimes times{.read = watch.milliseconds()};
 
   apply(a.subdivision, a.renderer);
   a.shading.background = !a.no_background;
@@ -180,10 +174,10 @@ Status render(RenderArguments& a) {
   Picture picture;
   if (Status drawn = draw(a, *outputs, camera, *renderer, frame, picture); !drawn) return drawn;
 
-  const auto before_writing = Clock::now();
+  const Stopwatch writing;
   if (Status written = write_all(a, *outputs, frame, picture); !written) return written;
-  times.write = milliseconds_since(before_writing);
-  times.total = milliseconds_since(start);
+  times.write = writing.milliseconds();
+  times.total = watch.milliseconds();
   if (a.wants_statistics) {
     say(statistics(model, *renderer, a.renderer.backend == Backend::kAuto, times));
   }

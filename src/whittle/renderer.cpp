@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/timing.h"
 #include "base/workers.h"
 #include "gpu/devices.h"
 #include "image/antialias.h"
@@ -19,15 +19,7 @@
 #include "trace/vulkan/raster.h"
 
 namespace whittle {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-}  // namespace
+namespace {}  // namespace
 
 Status check_picture_size(int64_t width, int64_t height) {
   if (width >= 1 && height >= 1 && width <= kMostSide && height <= kMostSide &&
@@ -68,6 +60,8 @@ struct Renderer::State {
 
   Status choose_backend();
   Status make_tracer(const Camera& camera);
+  /// Gives back what that made.
+  void discard();
   /// After a refusal: true if the CPU goes on, else the refusal stands.
   bool falls_back(const Error& refusal, const Camera& camera);
 };
@@ -94,8 +88,7 @@ bool Renderer::State::falls_back(const Error& refusal, const Camera& camera) {
   if (!is_auto || settings.backend != Backend::kVulkanRaster) return false;
   settings.backend = Backend::kCpu;
   backend_note = refusal.message;
-  raster = nullptr;
-  tracer.reset();
+  discard();
   device.reset();
   return bool(make_tracer(camera));
 }
@@ -108,38 +101,42 @@ Renderer::~Renderer() = default;
 Result<Renderer> Renderer::make(const Model& model, const RendererSettings& settings) {
   auto state = std::make_unique<State>(model, settings);
   if (Status chosen = state->choose_backend(); !chosen) return chosen.error();
-  const auto start = Clock::now();
+  const Stopwatch watch;
   state->looks = appearances(model);
   Result<Scene> scene = lower(model);
   if (!scene) return scene.error();
   state->scene = std::move(*scene);
-  state->times.lower = milliseconds_since(start);
+  state->times.lower = watch.milliseconds();
   return Renderer(std::move(state));
 }
 
 Camera Renderer::camera(const ViewOptions& options) {
   State& s = *state_;
   const FileView& file = s.model.view;
-  const auto start = Clock::now();
+  const Stopwatch watch;
   Box framed;
   if (frames_the_solid(options, file)) {
     const SolidBounds solid = solid_bounds(s.scene, s.settings.threads);
     framed = solid.bounded ? solid.box : bounds(s.model).box;
   }
-  s.times.frame = milliseconds_since(start);
+  s.times.frame = watch.milliseconds();
   return make_camera(options, file, framed);
 }
 
-Status Renderer::State::make_tracer(const Camera& camera) {
+void Renderer::State::discard() {
   tracer.reset();
   cpu = nullptr;
   raster = nullptr;
+  cells.reset();
+}
+
+Status Renderer::State::make_tracer(const Camera& camera) {
+  discard();
   if (settings.backend == Backend::kOracle) {
     tracer = make_oracle_tracer(model, settings.threads);
     return Done{};
   }
-  const auto start = Clock::now();
-  cells.reset();
+  const Stopwatch watch;
   SubdivideSettings subdivision = settings.subdivide;
   subdivision.rays = double(camera.width) * double(camera.height);
   if (settings.pixel_threshold > 0) {
@@ -153,16 +150,16 @@ Status Renderer::State::make_tracer(const Camera& camera) {
     refine_all(*cells, workers);
   else if (!is_raster)
     refine_top(*cells, workers);
-  times.subdivide = milliseconds_since(start);
+  times.subdivide = watch.milliseconds();
   times.send = 0;
   if (is_raster) {
-    const auto before_sending = Clock::now();
+    const Stopwatch sending;
     Result<std::unique_ptr<RasterTracer>> made =
         make_raster_tracer(device, scene, *cells, settings.threads);
     if (!made) return made.error();
     raster = made->get();
     tracer = *std::move(made);
-    times.send = milliseconds_since(before_sending);
+    times.send = sending.milliseconds();
   } else {
     std::unique_ptr<CpuTracer> made = make_cpu_tracer(scene, *cells, settings.threads);
     cpu = made.get();
@@ -179,27 +176,24 @@ Status Renderer::prepare(const Camera& camera, Refine refine) {
 }
 
 void Renderer::discard() {
-  state_->tracer.reset();
-  state_->cpu = nullptr;
-  state_->raster = nullptr;
-  state_->cells.reset();
+  state_->discard();
 }
 
 Result<Frame> Renderer::trace(const Camera& camera, const Progress& progress) {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   Frame frame = tracer().render(camera, progress);
   if (const Status status = tracer().status(); !status) {
     if (!state_->falls_back(status.error(), camera)) return status.error();
     frame = tracer().render(camera, progress);
   }
-  state_->times.trace = milliseconds_since(start);
+  state_->times.trace = watch.milliseconds();
   return frame;
 }
 
 Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
                                 const ShadeSettings& settings, int antialias) {
   State& s = *state_;
-  const auto start = Clock::now();
+  const Stopwatch watch;
   ShadeSettings look = settings;
   if (look.style == Style::kOpenscad) {
     if (!s.cut_faces) s.cut_faces.emplace(s.scene);
@@ -215,7 +209,7 @@ Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
     if (!s.falls_back(status.error(), camera)) return status.error();
     picture = shaded();
   }
-  s.times.shade = milliseconds_since(start);
+  s.times.shade = watch.milliseconds();
   return picture;
 }
 

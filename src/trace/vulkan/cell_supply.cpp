@@ -1,7 +1,8 @@
 #include "trace/vulkan/cell_supply.h"
 
-#include <chrono>
 #include <utility>
+
+#include "base/timing.h"
 
 namespace whittle {
 namespace {
@@ -10,12 +11,6 @@ namespace {
 constexpr uint32_t kTopSplits = 8;
 /// So many of them are refined side by side: enough for all threads.
 constexpr size_t kJobsAtOnce = 16;
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 }  // namespace
 
@@ -63,7 +58,7 @@ Status CellSupply::deliver(const Sight* sight, double milliseconds,
   std::vector<Job> items, jobs;
   if (tree_.root != nullptr) items.push_back({tree_.root, tree_.region, {}, 0});
   CellBatch batch;
-  Clock::time_point start = Clock::now();
+  Stopwatch watch;
   while (!items.empty()) {
     jobs.clear();
     while (!items.empty() && (sight == nullptr || jobs.size() < kJobsAtOnce)) {
@@ -88,12 +83,11 @@ Status CellSupply::deliver(const Sight* sight, double milliseconds,
     }
     const Solved hides = solved();
     if (Status done = run(jobs, {sight, hides.get()}, batch); !done) return done;
-    if (!items.empty() && (batch.cells.empty() || milliseconds_since(start) < milliseconds))
-      continue;
+    if (!items.empty() && (batch.cells.empty() || watch.milliseconds() < milliseconds)) continue;
     batch.is_last = items.empty();
     if (!take(std::exchange(batch, {}))) return Done{};
     milliseconds *= 2;
-    start = Clock::now();
+    watch = {};
   }
   return Done{};
 }

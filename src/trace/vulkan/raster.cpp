@@ -1,10 +1,10 @@
 #include "trace/vulkan/raster.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <functional>
 
+#include "base/timing.h"
 #include "trace/vulkan/cell_stream.h"
 #include "trace/vulkan/cell_supply.h"
 #include "trace/vulkan/probe_layers.h"
@@ -13,12 +13,6 @@
 
 namespace whittle {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 /// Brings together the supply of cells, their place on the device, and the drawer of tiles.
 class RasterTracerImpl final : public RasterTracer {
@@ -55,7 +49,7 @@ class RasterTracerImpl final : public RasterTracer {
   Frame render(const Camera& camera, const Progress& progress) override {
     Frame frame(camera.width, camera.height);
     stats_ = {};
-    start_ = Clock::now();
+    clock_ = {};
     drawer_.begin_picture();
     if (supply_.flat().root == kNoChild) return frame;
     const std::vector<PixelRect> tiles = tiles_of(pixels_covering(camera, world_region()));
@@ -138,13 +132,13 @@ class RasterTracerImpl final : public RasterTracer {
       if (!layer) return draw_stream(sight, view, show);
       if (Status done = send(supply_.at_once(&sight)); !done) return done;
     }
-    const auto start = Clock::now();
+    const Stopwatch watch;
     order_front_to_back(supply_.flat(), supply_.region(), sight, visible_, open_);
     if (!open_.empty()) {
       if (Status done = send(supply_.refined(open_, sight)); !done) return done;
       order_front_to_back(supply_.flat(), supply_.region(), sight, visible_, open_);
     }
-    stats.order_ms += milliseconds_since(start);
+    stats.order_ms += watch.milliseconds();
     return drawer_.draw(view, visible_, supply_.cell_count(), layer, stats, part);
   }
 
@@ -163,7 +157,7 @@ class RasterTracerImpl final : public RasterTracer {
       sent += batch->cells.size() / kCellWords;
       if (Status done = drawer_.draw(view, batch->visible, sent, nullptr, stats_, part); !done)
         return done;
-      if (part.is_first) stats_.first_ms = milliseconds_since(start_);
+      if (part.is_first) stats_.first_ms = clock_.milliseconds();
       ++stats_.batches;
       part.rank += uint32_t(batch->visible.size());
       part.is_first = false;
@@ -185,7 +179,7 @@ class RasterTracerImpl final : public RasterTracer {
   std::vector<VisibleCell> visible_;
   std::vector<OpenCellInSight> open_;
   std::function<void(const Frame&)> watch_;
-  Clock::time_point start_;
+  Stopwatch clock_;
   RasterStats stats_;
   Status status_ = Done{};
 };
