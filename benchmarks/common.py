@@ -42,12 +42,12 @@ def machine():
     return f"{processor()}, {os.cpu_count()} cores"
 
 
-def make_model(model, path, whittle=WHITTLE):
+def make_model(model, path, whittle=WHITTLE, *options):
     """Writes a model named in one word, as in cheese1000; the path's ending says as what."""
     parts = re.fullmatch(r"(r9|[a-z]+)(\d*)", model)
     if not parts:
         fail(f"{model}: a model is a name and a size in one word, as in cheese1000")
-    call(whittle, "model", *(part for part in parts.groups() if part), "-o", path)
+    call(whittle, "model", *(part for part in parts.groups() if part), "-o", path, *options)
 
 
 def write_results(kind, content, folder=RESULTS):

@@ -26,15 +26,35 @@ def differing_pixels(path_a, path_b, tolerance):
     return sum(worst.histogram()[tolerance + 1:])
 
 
-def render_both(model, size, threads, folder, whittle, repeat=1):
+# The whole model with a margin around it, as whittle shows it unless told otherwise; or from the
+# same eye with half the field of view, so that the model fills the picture.
+VIEWS = ("whole", "near")
+NEAR_FOV = 11.25  # degrees
+
+
+def view_options(view, model, folder, whittle):
+    """What to tell whittle to see a model so."""
+    if view == "whole":
+        return []
+    pov = os.path.join(folder, f"{model}.pov")
+    make_model(model, pov, whittle)
+    with open(pov) as file:
+        text = file.read()
+    eye, forward = ([float(x) for x in re.search(rf"{name} <(.*?)>", text).group(1).split(",")]
+                    for name in ("location", "direction"))
+    ahead = [a + 100 * b for a, b in zip(eye, forward)]
+    return ["--camera", ",".join(repr(x) for x in eye + ahead), "--fov", NEAR_FOV]
+
+
+def render_both(model, size, threads, folder, whittle, repeat=1, view=()):
     """Pictures of both in `folder`, with the lighting of the paper: their names, the model's .csg,
-    and the median milliseconds of POV-Ray's trace (its own statistics)."""
+    and the median milliseconds of POV-Ray's trace (its own statistics). `view`: whittle's options."""
     csg, pov = (os.path.join(folder, f"{model}.{kind}") for kind in ("csg", "pov"))
-    for out in (csg, pov):
-        make_model(model, out, whittle)
+    make_model(model, csg, whittle)
+    make_model(model, pov, whittle, *view)
     ours, theirs = (os.path.join(folder, f"{model}-{who}.png") for who in ("whittle", "povray"))
     call(whittle, csg, "-o", ours, "--style", "blinn", "--imgsize", f"{size},{size}",
-         "--threads", threads, "--quiet")
+         "--threads", threads, "--quiet", *view)
     times = []
     for _ in range(repeat):
         log = call("povray", f"+I{pov}", f"+O{theirs}", f"+W{size}", f"+H{size}", "+Q3", "-A", "-D",
