@@ -12,17 +12,69 @@ constexpr uint32_t kTopSplits = 8;
 /// So many of them are refined side by side: enough for all threads.
 constexpr size_t kJobsAtOnce = 16;
 
+/// Whether a cell has a place in the host's tree.
+bool has_place(CellKind kind) {
+  return kind == CellKind::kNode || (kind >= CellKind::kConjunction && kind != CellKind::kOpen);
+}
+
+/// Whether something of the cell or below it has.
+bool may_show(CellLink link) {
+  std::vector<CellLink> links{link};
+  while (!links.empty()) {
+    const CellLink now = links.back();
+    links.pop_back();
+    if (now.kind() >= CellKind::kConjunction) return true;
+    if (now.kind() == CellKind::kNode)
+      links.insert(links.end(), {now.children()[1].link(), now.children()[0].link()});
+  }
+  return false;
+}
+
 }  // namespace
 
 CellSupply::CellSupply(const Scene& scene, const CellTree& tree, bool doubles, int threads)
     : scene_(scene), tree_(tree), doubles_(doubles), workers_(threads), refiners_(workers_) {
   if (tree_.root == nullptr) return;
-  flat_.root = kOpenBit;
-  flat_.open.push_back(tree_.root);
+  flat_.root = kOpenPlace;
 }
 
 bool CellSupply::is_open() const {
-  return whittle::is_open(flat_.root) && tree_.root->link().kind() == CellKind::kOpen;
+  return flat_.root == kOpenPlace && tree_.root->link().kind() == CellKind::kOpen;
+}
+
+const Cell& CellSupply::cell_in(Place place) const {
+  if (place.parent == kNoChild) return *tree_.root;
+  return flat_.nodes[place.parent].cells[place.side];
+}
+
+void CellSupply::follow() {
+  if (tree_.refiner_pool->moves() == moves_) return;
+  moves_ = tree_.refiner_pool->moves();
+  std::vector<Place> places(1);
+  while (!places.empty()) {
+    const Place place = places.back();
+    places.pop_back();
+    follow(place, cell_in(place).link());
+    const uint32_t what = flat_.at(place);
+    if (is_node(what)) places.insert(places.end(), {{what, 1}, {what, 0}});
+  }
+}
+
+void CellSupply::follow(Place place, CellLink link) {
+  uint32_t& what = flat_.at(place);
+  const void* was = nullptr;
+  if (is_node(what)) was = flat_.nodes[what].cells;
+  if (is_cell(what)) was = flat_.leaves[what & ~kCellBit];
+  const void* const is = has_place(link.kind()) ? link.target() : nullptr;
+  if (was == is && was != nullptr) return;
+  if (was != nullptr) aside_[was] = what;
+  const auto known = is != nullptr ? aside_.find(is) : aside_.end();
+  if (known != aside_.end()) {
+    what = known->second;
+    aside_.erase(known);
+  } else if (what != kOpenPlace) {
+    what = may_show(link) ? kOpenPlace : kNoChild;
+  }
 }
 
 Result<CellBatch> CellSupply::at_once(const Sight* sight) {
@@ -41,7 +93,8 @@ Result<CellBatch> CellSupply::at_once(const Sight* sight) {
 Result<CellBatch> CellSupply::refined(const std::vector<OpenCellInSight>& open,
                                       const Sight& sight) {
   std::vector<Job> jobs;
-  for (const OpenCellInSight& cell : open) jobs.push_back({cell.cell, cell.box, cell.place, 0});
+  for (const OpenCellInSight& cell : open)
+    jobs.push_back({&cell_in(cell.place), cell.box, cell.place, 0});
   CellBatch batch;
   if (Status done = run(jobs, {&sight, nullptr}, batch); !done) return done.error();
   return batch;
@@ -71,7 +124,8 @@ Status CellSupply::deliver(const Sight* sight, double milliseconds,
       }
       const double split = now.cell->split;
       const auto node = uint32_t(flat_.nodes.size());
-      flat_.nodes.push_back({.split = split, .axis = uint8_t(link.axis())});
+      flat_.nodes.push_back(
+          {.split = split, .cells = link.children(), .axis = uint8_t(link.axis())});
       flat_.at(now.place) = node;
       // What is pushed last comes first.
       const uint32_t first = sight && sight->starts_above(link.axis(), split) ? 1 : 0;

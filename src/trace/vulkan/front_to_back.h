@@ -9,7 +9,6 @@ namespace whittle {
 
 /// An open cell that may be seen: it must be refined before anything is drawn.
 struct OpenCellInSight {
-  const Cell* cell;
   Box box;
   Place place;
 };

@@ -30,7 +30,7 @@ std::map<uint32_t, Box> boxes_of(const FlatCells& flat, const Box& region) {
   while (!open.empty()) {
     const Open now = open.back();
     open.pop_back();
-    if (now.at == kNoChild || is_open(now.at)) continue;
+    if (now.at == kNoChild || now.at == kOpenPlace) continue;
     if (is_cell(now.at)) {
       boxes[now.at & ~kCellBit] = now.box;
       continue;
