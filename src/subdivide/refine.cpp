@@ -62,6 +62,10 @@ bool has_units(std::span<const Token> formula) {
                      [](Token token) { return token.kind() == TokenKind::kUnit; });
 }
 
+const OpenCell& open_cell(CellLink link) {
+  return *static_cast<const OpenCell*>(link.target());
+}
+
 void wait_a_little(int round) {
   if (round < kSpins)
     std::this_thread::yield();
@@ -71,8 +75,10 @@ void wait_a_little(int round) {
 
 }  // namespace
 
-Refiner::Refiner(const Scene& scene, const UnitBoxes& boxes, const SubdivideSettings& settings)
+Refiner::Refiner(const Scene& scene, const UnitBoxes& boxes, const SubdivideSettings& settings,
+                 std::atomic<size_t>& kept)
     : scene_(scene),
+      kept_(kept),
       settings_(settings),
       has_threshold_(bool(settings.is_small)),
       region_edge_(max_component(scene.region.size())),
@@ -88,10 +94,10 @@ CellLink Refiner::refined(const Cell& cell, const Helpers* helpers) {
       wait_a_little(round);
       continue;
     }
-    const OpenCell& open = *static_cast<const OpenCell*>(link.target());
+    const OpenCell& open = open_cell(link);
     try {
       const CellLink result = refine(cell, open, helpers);
-      const bool keeps = has_threshold_ && keep_formula(cell, link);
+      const bool keeps = has_threshold_ && keep_formula(cell, link, result);
       cell.bits.store(result.bits(), std::memory_order_release);
       --stats_.cells[size_t(CellKind::kOpen)];
       ++stats_.cells[size_t(result.kind())];
@@ -146,8 +152,7 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
   const bool useless =
       !has_threshold_ && (is_auto ? !pays_off(open.literals, rays)
                                   : edge * edge * open.literals < settings_.least_use);
-  const size_t split_bytes =
-      bytes_of_pair() + 2 * bytes_of_part(open.literals, open.token_count) + bytes_if_kept(open);
+  const size_t split_bytes = 2 * (sizeof(Cell) + bytes_unsplit(open.literals, open.token_count));
   const bool must_end_anyway = useless || edge * 0.5 < settings_.smallest_edge ||
                                open.stalled >= stall_limit(open.literals) ||
                                open.depth >= kMostDepth || open.memory < split_bytes;
@@ -180,24 +185,26 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
   return true;
 }
 
-/// Notes what the cell that was refined is across the threshold. Whether that may still be asked.
-bool Refiner::keep_formula(const Cell& cell, CellLink open) const {
+/// Notes what a cell that became `made` is across the threshold. Whether its formula is needed to
+/// find that out.
+bool Refiner::keep_formula(const Cell& cell, CellLink open, CellLink made) const {
+  const size_t bytes = OpenCell::bytes(open_cell(open).token_count);
   uint64_t& there = across(cell);
-  if (there != kNowhere || across_ == Across::kSame) return false;
-  const bool unknown = across_ == Across::kUnknown;
-  there = (unknown ? open : CellLink(CellKind::kIgnored, nullptr)).bits();
-  if (!is_small_) there |= kIfSmall;
-  return unknown;
-}
-
-/// What a cell takes if it is not split, at most; across a threshold it may have both forms.
-size_t Refiner::bytes_of_part(size_t literals, size_t tokens) const {
-  return (has_threshold_ ? 2 : 1) * bytes_unsplit(literals, tokens);
-}
-
-/// And what it keeps if it is.
-size_t Refiner::bytes_if_kept(const OpenCell& open) const {
-  return has_threshold_ ? bytes_unsplit(open.literals, open.token_count) : 0;
+  if (there != kNowhere) {
+    if (CellLink(there).kind() == CellKind::kNode) kept_ -= bytes;
+    return false;
+  }
+  if (across_ == Across::kSame) return false;
+  bool keeps = across_ == Across::kUnknown;
+  // Formulas of cells that are split are in nobody's share of the memory.
+  if (keeps && made.kind() == CellKind::kNode && (kept_ += bytes) > settings_.memory) {
+    kept_ -= bytes;
+    keeps = false;
+    open = {CellKind::kOpen, nullptr};
+  }
+  if (across_ == Across::kIgnored) open = {CellKind::kIgnored, nullptr};
+  there = open.bits() | (is_small_ ? 0 : kIfSmall);
+  return keeps;
 }
 
 CellLink Refiner::decided(bool full) {
@@ -244,12 +251,12 @@ CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
   size_t unsplit[2] = {0, 0}, weight[2] = {0, 0};
   for (int side = 0; side < 2; ++side) {
     if (halves_.truth[side] != Truth::kVaries) continue;
-    unsplit[side] = bytes_of_part(halves_.part[side].literals, halves_.formula[side].size());
+    unsplit[side] = bytes_unsplit(halves_.part[side].literals, halves_.formula[side].size());
     weight[side] = halves_.part[side].literals + kFew;
   }
   const bool stalls = std::ranges::all_of(
       halves_.part, [&](const OpenCell& part) { return part.literals >= parent.literals; });
-  const size_t taken = bytes_of_pair() + unsplit[0] + unsplit[1] + bytes_if_kept(parent);
+  const size_t taken = 2 * sizeof(Cell) + unsplit[0] + unsplit[1];
   const double rest = parent.memory > taken ? double(parent.memory - taken) : 0;
   Cell* const cells = new_pair();
   stats_.depth = std::max(stats_.depth, parent.depth + 1);
@@ -313,9 +320,9 @@ std::optional<CellLink> Refiner::open_parts(const Cell& cell, const OpenCell& pa
     for (size_t part = first; part < last; ++part)
       literals[part] = expanded_size(scene_, formulas[part]);
   });
-  size_t most = bytes_if_kept(parent);
+  size_t most = 0;
   for (size_t part = 0; part < parts; ++part)
-    most += bytes_of_pair() + bytes_of_part(literals[part], formulas[part].size());
+    most += 2 * sizeof(Cell) + bytes_unsplit(literals[part], formulas[part].size());
   if (most > parent.memory) return std::nullopt;
 
   // Every part by itself.
@@ -337,19 +344,19 @@ std::optional<CellLink> Refiner::open_parts(const Cell& cell, const OpenCell& pa
     }
   });
 
-  size_t taken = bytes_of_pair() * parts + bytes_if_kept(parent), weights = 0;
+  size_t taken = 2 * sizeof(Cell) * parts, weights = 0;
   bool stalls = true;
   for (const OpenCell* open : opened) {
     stalls = stalls && open != nullptr && open->literals >= parent.literals;
     if (open == nullptr) continue;
-    taken += bytes_of_part(open->literals, open->token_count);
+    taken += bytes_unsplit(open->literals, open->token_count);
     weights += open->literals + kFew;
   }
   const double rest = parent.memory > taken ? double(parent.memory - taken) : 0;
   for (OpenCell* open : opened) {
     if (open == nullptr) continue;
     open->stalled = stalls ? parent.stalled + splits : 0;
-    open->memory = bytes_of_part(open->literals, open->token_count) +
+    open->memory = bytes_unsplit(open->literals, open->token_count) +
                    size_t(rest * double(open->literals + kFew) / double(weights));
   }
   stats_.depth = std::max(stats_.depth, parent.depth + splits);
@@ -479,7 +486,7 @@ void RefinerPool::open_root() {
 Refiner& RefinerPool::take() {
   const std::lock_guard lock(mutex_);
   if (unused_.empty()) {
-    all_.push_back(std::make_unique<Refiner>(scene_, boxes_, settings_));
+    all_.push_back(std::make_unique<Refiner>(scene_, boxes_, settings_, kept_));
     unused_.reserve(all_.size());
     return *all_.back();
   }

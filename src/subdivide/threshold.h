@@ -8,9 +8,10 @@
 // open and is refined when somebody looks. So the tree is what one made afresh with that threshold
 // would be, and only what is new is refined.
 //
-// Memory: `memory` of the settings bounds what is in use, kept formulas included. What is out of
-// use is bounded by MovedThreshold::is_crowded: who heeds it never holds more than twice that
-// `memory`.
+// Memory: the tree in use takes what `memory` of the settings lets a fresh one take; besides, each
+// cell of it may have both of its forms, and formulas of cells that are split, as many as fit into
+// `memory` again. What is out of use is bounded by MovedThreshold::is_crowded: who heeds it never
+// holds more than four times `memory`.
 #pragma once
 
 #include "subdivide/subdivide.h"
@@ -22,8 +23,9 @@ struct MovedThreshold {
   uint64_t cells = 0;   ///< in use, refined or open
   uint64_t opened = 0;  ///< of them, those that are no longer small,
   uint64_t closed = 0;  ///< and those that became small
-  /// More than three quarters of all cells are out of use, or all together take more than `memory`:
-  /// it is time to make a new tree.
+  /// It is time to make a new tree: more than three quarters of all cells are out of use, or all
+  /// together take more than `memory`, or of a cell that became small the formula was not kept. In
+  /// the last case the tree is not what a fresh one would be.
   bool is_crowded = false;
 };
 
