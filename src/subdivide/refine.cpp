@@ -62,10 +62,6 @@ bool has_units(std::span<const Token> formula) {
                      [](Token token) { return token.kind() == TokenKind::kUnit; });
 }
 
-const OpenCell& open_cell(CellLink link) {
-  return *static_cast<const OpenCell*>(link.target());
-}
-
 void wait_a_little(int round) {
   if (round < kSpins)
     std::this_thread::yield();
@@ -75,10 +71,8 @@ void wait_a_little(int round) {
 
 }  // namespace
 
-Refiner::Refiner(const Scene& scene, const UnitBoxes& boxes, const SubdivideSettings& settings,
-                 std::atomic<size_t>& kept)
+Refiner::Refiner(const Scene& scene, const UnitBoxes& boxes, const SubdivideSettings& settings)
     : scene_(scene),
-      kept_(kept),
       settings_(settings),
       has_threshold_(bool(settings.is_small)),
       region_edge_(max_component(scene.region.size())),
@@ -94,10 +88,10 @@ CellLink Refiner::refined(const Cell& cell, const Helpers* helpers) {
       wait_a_little(round);
       continue;
     }
-    const OpenCell& open = open_cell(link);
+    const OpenCell& open = *static_cast<const OpenCell*>(link.target());
     try {
       const CellLink result = refine(cell, open, helpers);
-      const bool keeps = has_threshold_ && keep_formula(cell, link, result);
+      const bool keeps = has_threshold_ && keep_formula(cell, link);
       cell.bits.store(result.bits(), std::memory_order_release);
       --stats_.cells[size_t(CellKind::kOpen)];
       ++stats_.cells[size_t(result.kind())];
@@ -185,26 +179,15 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
   return true;
 }
 
-/// Notes what a cell that became `made` is across the threshold. Whether its formula is needed to
+/// Notes what the cell that was refined is across the threshold. Whether its formula is needed to
 /// find that out.
-bool Refiner::keep_formula(const Cell& cell, CellLink open, CellLink made) const {
-  const size_t bytes = OpenCell::bytes(open_cell(open).token_count);
+bool Refiner::keep_formula(const Cell& cell, CellLink open) const {
   uint64_t& there = across(cell);
-  if (there != kNowhere) {
-    if (CellLink(there).kind() == CellKind::kNode) kept_ -= bytes;
-    return false;
-  }
-  if (across_ == Across::kSame) return false;
-  bool keeps = across_ == Across::kUnknown;
-  // Formulas of cells that are split are in nobody's share of the memory.
-  if (keeps && made.kind() == CellKind::kNode && (kept_ += bytes) > settings_.memory) {
-    kept_ -= bytes;
-    keeps = false;
-    open = {CellKind::kOpen, nullptr};
-  }
-  if (across_ == Across::kIgnored) open = {CellKind::kIgnored, nullptr};
-  there = open.bits() | (is_small_ ? 0 : kIfSmall);
-  return keeps;
+  if (there != kNowhere || across_ == Across::kSame) return false;
+  const bool unknown = across_ == Across::kUnknown;
+  there = (unknown ? open : CellLink(CellKind::kIgnored, nullptr)).bits();
+  if (!is_small_) there |= kIfSmall;
+  return unknown;
 }
 
 CellLink Refiner::decided(bool full) {
@@ -486,7 +469,7 @@ void RefinerPool::open_root() {
 Refiner& RefinerPool::take() {
   const std::lock_guard lock(mutex_);
   if (unused_.empty()) {
-    all_.push_back(std::make_unique<Refiner>(scene_, boxes_, settings_, kept_));
+    all_.push_back(std::make_unique<Refiner>(scene_, boxes_, settings_));
     unused_.reserve(all_.size());
     return *all_.back();
   }

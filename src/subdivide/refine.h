@@ -44,8 +44,8 @@ struct alignas(2 * sizeof(Cell)) CellPair {
 };
 
 /// What a cell of a pair would be if it were small and is not, or the other way round: the bits of
-/// its link, and kIfSmall in the first case. Open: not known yet, or if it links to nothing,
-/// forgotten. kNowhere: the same as it is, or it is open and nobody knows at all.
+/// its link, and kIfSmall in the first case. Open: not known yet. kNowhere: the same as it is, or
+/// it is open and nobody knows at all.
 inline uint64_t& across(const Cell& cell) {
   const auto at = reinterpret_cast<uintptr_t>(&cell);
   const uintptr_t side = at / sizeof(Cell) % 2;
@@ -65,9 +65,7 @@ struct Helpers {
 /// Refines cells of one tree; used by one thread at a time.
 class Refiner {
  public:
-  /// `kept`: counts the bytes of formulas that refiners keep of cells that they split.
-  Refiner(const Scene& scene, const UnitBoxes& boxes, const SubdivideSettings& settings,
-          std::atomic<size_t>& kept);
+  Refiner(const Scene& scene, const UnitBoxes& boxes, const SubdivideSettings& settings);
 
   /// What the cell is; never kOpen. If another thread is at it, waits for that. What it throws (out
   /// of memory) leaves the cell open. With helpers, not from within a loop of theirs.
@@ -83,7 +81,7 @@ class Refiner {
 
   CellLink refine(const Cell& cell, const OpenCell& open, const Helpers* helpers);
   bool ends(const OpenCell& open, CellLink& link);
-  bool keep_formula(const Cell& cell, CellLink open, CellLink made) const;
+  bool keep_formula(const Cell& cell, CellLink open) const;
   size_t bytes_of_pair() const { return has_threshold_ ? sizeof(CellPair) : 2 * sizeof(Cell); }
   /// The two parts of a cell cut in the middle: boxes, truths, formulas.
   struct Halves {
@@ -114,7 +112,6 @@ class Refiner {
   CellLink decided(bool full);
 
   const Scene& scene_;
-  std::atomic<size_t>& kept_;
   const SubdivideSettings& settings_;
   const bool has_threshold_;
   double region_edge_;
@@ -158,7 +155,6 @@ class RefinerPool {
   const UnitBoxes boxes_;
   CellPair root_;  ///< its first cell is the root
   uint64_t moves_ = 0;
-  std::atomic<size_t> kept_ = 0;
   std::mutex mutex_;
   std::vector<std::unique_ptr<Refiner>> all_;
   std::vector<Refiner*> unused_;

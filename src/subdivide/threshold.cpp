@@ -32,12 +32,8 @@ class Mover {
     CellLink link = at.cell->link();
     if (there != kNowhere) {
       const bool small = is_small_({at.box.lo + origin_, at.box.hi + origin_});
-      const CellLink other(there & ~kIfSmall);
-      if (small != bool(there & kIfSmall)) {
-        // It stays.
-      } else if (other.kind() == CellKind::kOpen && other.target() == nullptr) {
-        moved_.is_crowded = true;
-      } else {
+      if (small == bool(there & kIfSmall)) {
+        const CellLink other(there & ~kIfSmall);
         there = link.bits() | (small ? 0 : kIfSmall);
         at.cell->bits.store(other.bits(), std::memory_order_release);
         --kinds_[size_t(link.kind())];
@@ -96,14 +92,13 @@ MovedThreshold RefinerPool::move(IsSmall is_small, const Workers& workers) {
     sum.cells += mover.moved().cells;
     sum.opened += mover.moved().opened;
     sum.closed += mover.moved().closed;
-    sum.is_crowded |= mover.moved().is_crowded;
     for (size_t kind = 0; kind < kCellKinds; ++kind)
       refiner.stats_.cells[kind] += mover.kinds()[kind];
   });
   give(refiner);
   const SubdivideStats all = stats();
-  sum.is_crowded |= all.memory_bytes > settings_.memory ||
-                    all.cell_count() > kFewCells + kMostPerUsed * sum.cells;
+  sum.is_crowded = all.memory_bytes > settings_.memory ||
+                   all.cell_count() > kFewCells + kMostPerUsed * sum.cells;
   return sum;
 }
 

@@ -8,10 +8,11 @@
 // open and is refined when somebody looks. So the tree is what one made afresh with that threshold
 // would be, and only what is new is refined.
 //
-// Memory: the tree in use takes what `memory` of the settings lets a fresh one take; besides, each
-// cell of it may have both of its forms, and formulas of cells that are split, as many as fit into
-// `memory` again. What is out of use is bounded by MovedThreshold::is_crowded: who heeds it never
-// holds more than four times `memory`.
+// Memory: what is in use takes what `memory` of the settings lets a fresh tree take, and formulas
+// of cells that are split besides (where small cells are ignored, only those of the few that have
+// more literals than are expanded at once). What is out of use stays until
+// MovedThreshold::is_crowded says that it is too much: who heeds that holds at most `memory` and
+// what one more picture needs.
 #pragma once
 
 #include "subdivide/subdivide.h"
@@ -23,9 +24,8 @@ struct MovedThreshold {
   uint64_t cells = 0;   ///< in use, refined or open
   uint64_t opened = 0;  ///< of them, those that are no longer small,
   uint64_t closed = 0;  ///< and those that became small
-  /// It is time to make a new tree: more than three quarters of all cells are out of use, or all
-  /// together take more than `memory`, or of a cell that became small the formula was not kept. In
-  /// the last case the tree is not what a fresh one would be.
+  /// More than three quarters of all cells are out of use, or all together take more than `memory`:
+  /// it is time to make a new tree.
   bool is_crowded = false;
 };
 

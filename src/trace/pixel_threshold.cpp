@@ -6,6 +6,13 @@
 namespace whittle {
 namespace {
 
+/// Between corners as Box numbers them.
+struct Edge {
+  int a, b;
+};
+constexpr Edge kEdges[12] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
+                             {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+
 bool is_met_by(const Box& box, const Ray& ray) {
   double t0 = ray.t_min, t1 = kInfinity;
   for (int axis = 0; axis < 3; ++axis) {
@@ -67,13 +74,11 @@ bool PixelThreshold::edges_are_short(const Corners& c) const {
     x[i] = c.x[i] * scale;
     y[i] = c.y[i] * scale;
   }
-  double longest = 0;
-  for (int bit = 1; bit < 8; bit *= 2)
-    for (int i = 0; i < 8; ++i) {
-      const double dx = x[i] - x[i ^ bit], dy = y[i] - y[i ^ bit];
-      longest = std::max(longest, dx * dx + dy * dy);
-    }
-  return longest < pixels_ * pixels_;
+  const double most = pixels_ * pixels_;
+  return std::ranges::all_of(kEdges, [&](const Edge& edge) {
+    const double dx = x[edge.a] - x[edge.b], dy = y[edge.a] - y[edge.b];
+    return dx * dx + dy * dy < most;
+  });
 }
 
 /// How far inside of each of the four sides a point is, in any unit. Between the sides of a
@@ -118,12 +123,11 @@ bool PixelThreshold::operator()(const Box& box) const {
   const Corners c = corners_of(box);
   if (!is_coarse_ && shows_all_of(c)) return edges_are_short(c);
   const auto corner = [&](int i) { return Vec3{c.x[i], c.y[i], c.z[i]}; };
-  for (int bit = 1; bit < 8; bit *= 2)
-    for (int i = 0; i < 8; ++i) {
-      // Written so that a NaN is not small.
-      if ((i & bit) == 0 && !(visible_length(corner(i), corner(i | bit)) < pixels_)) return false;
-    }
-  return !covers_screen(box);
+  // Written so that a NaN is not small.
+  const bool all_short = std::ranges::all_of(kEdges, [&](const Edge& edge) {
+    return visible_length(corner(edge.a), corner(edge.b)) < pixels_;
+  });
+  return all_short && !covers_screen(box);
 }
 
 }  // namespace whittle
