@@ -10,9 +10,11 @@
 
 #include "lower/lower.h"
 #include "subdivide/subdivide.h"
+#include "subdivide/threshold.h"
 #include "support/agreement.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"
+#include "trace/pixel_threshold.h"
 #include "trace/vulkan/cell_stream.h"
 #include "trace/vulkan/view_data.h"
 
@@ -234,6 +236,57 @@ TEST(FrontToBack, AStreamFromItsOwnThreadIsTheSame) {
   CellSupply abandoned(subject.scene, other, true, 2);
   CellStream stream(abandoned, sight, 0);
   EXPECT_TRUE(stream.next());
+}
+
+/// The boxes of what the supply gives for a picture, front to back, after it has refined what that
+/// needs.
+std::vector<Box> seen_by(CellSupply& supply, const Sight& sight) {
+  std::vector<VisibleCell> visible;
+  std::vector<OpenCellInSight> open;
+  supply.follow();
+  order_front_to_back(supply.flat(), supply.region(), sight, visible, open);
+  EXPECT_TRUE(supply.refined(open, sight));
+  order_front_to_back(supply.flat(), supply.region(), sight, visible, open);
+  EXPECT_TRUE(open.empty());
+  const std::map<uint32_t, Box> all = boxes_of(supply.flat(), supply.region());
+  std::vector<Box> boxes;
+  for (const VisibleCell& cell : visible) boxes.push_back(all.at(cell.cell));
+  return boxes;
+}
+
+TEST(FrontToBack, AMovedThresholdLeavesTheCellsOfAFreshSupplyAndNoneGoesTwice) {
+  const Workers workers(2);
+  size_t changes = 0;
+  for (uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomModel subject(seed);
+    subject.settings.leaf_size = 1;
+    subject.settings.ignore_small = seed % 3 != 0;
+    std::vector<Camera> cameras = cameras_for(subject.model, 24, 16);
+    Camera far = cameras[0];
+    far.eye = far.eye - far.forward * 1e6;
+    cameras.push_back(far);
+    subject.settings.is_small = PixelThreshold(cameras[0], 1);
+    const CellTree tree = open_cells(subject.scene, subject.settings);
+    CellSupply supply(subject.scene, tree, true, 2);
+    std::vector<Box> before;
+    uint32_t sent = 0;
+    for (int round = 0; round < 3; ++round) {
+      for (const Camera& camera : cameras) {
+        move_threshold(tree, PixelThreshold(camera, 1), workers);
+        const std::vector<Box> seen = seen_by(supply, subject.sight(camera));
+        subject.settings.is_small = PixelThreshold(camera, 1);
+        const CellTree fresh = open_cells(subject.scene, subject.settings);
+        CellSupply other(subject.scene, fresh, true, 2);
+        EXPECT_EQ(seen, seen_by(other, subject.sight(camera)));
+        changes += seen != before;
+        before = seen;
+      }
+      if (round == 0) sent = supply.cell_count();
+      EXPECT_EQ(supply.cell_count(), sent) << "all that comes back has gone already";
+    }
+  }
+  EXPECT_GT(changes, 50u);
 }
 
 }  // namespace
