@@ -90,13 +90,26 @@ Result<CellBatch> CellSupply::at_once(const Sight* sight) {
   return all;
 }
 
-Result<CellBatch> CellSupply::refined(const std::vector<OpenCellInSight>& open,
-                                      const Sight& sight) {
+Result<CellBatch> CellSupply::refined(const std::vector<OpenCellInSight>& open, const Sight& sight,
+                                      std::vector<VisibleCell>& visible) {
   std::vector<Job> jobs;
   for (const OpenCellInSight& cell : open)
     jobs.push_back({&cell_in(cell.place), cell.box, cell.place, 0});
   CellBatch batch;
-  if (Status done = run(jobs, {&sight, nullptr}, batch); !done) return done.error();
+  std::vector<size_t> ends;
+  if (Status done = run(jobs, {&sight, nullptr}, batch, &ends); !done) return done.error();
+  std::vector<VisibleCell> all;
+  all.reserve(visible.size() + batch.visible.size());
+  auto known = visible.cbegin();
+  auto added = batch.visible.cbegin();
+  for (size_t i = 0; i < open.size(); ++i) {
+    const auto known_end = visible.cbegin() + ptrdiff_t(open[i].rank);
+    const auto added_end = batch.visible.cbegin() + ptrdiff_t(ends[i]);
+    all.insert(all.end(), std::exchange(known, known_end), known_end);
+    all.insert(all.end(), std::exchange(added, added_end), added_end);
+  }
+  all.insert(all.end(), known, visible.cend());
+  visible = std::move(all);
   return batch;
 }
 
@@ -146,7 +159,8 @@ Status CellSupply::deliver(const Sight* sight, double milliseconds,
   return Done{};
 }
 
-Status CellSupply::run(const std::vector<Job>& jobs, const Wanted& wanted, CellBatch& batch) {
+Status CellSupply::run(const std::vector<Job>& jobs, const Wanted& wanted, CellBatch& batch,
+                       std::vector<size_t>* ends) {
   std::vector<FlatPart> parts(jobs.size());
   std::vector<Status> done(jobs.size(), Status(Done{}));
   workers_.for_parts(jobs.size(), 1, [&](size_t first, size_t last, size_t worker) {
@@ -158,6 +172,7 @@ Status CellSupply::run(const std::vector<Job>& jobs, const Wanted& wanted, CellB
     if (!done[i]) return done[i];
     append(parts[i], jobs[i].place, cell_count_, word_count_, flat_);
     batch.visible.insert(batch.visible.end(), parts[i].visible.begin(), parts[i].visible.end());
+    if (ends) ends->push_back(batch.visible.size());
   }
   cell_count_ += uint32_t(flat_.cells.size() / kCellWords);
   word_count_ += uint32_t(flat_.words.size());

@@ -39,8 +39,10 @@ class CellSupply {
   /// All that the tile may see, or everything if there is none; in no order. Precondition of this
   /// and of stream(): nothing has come since the root was open.
   Result<CellBatch> at_once(const Sight* sight);
-  /// What of these cells the tile may see.
-  Result<CellBatch> refined(const std::vector<OpenCellInSight>& open, const Sight& sight);
+  /// What of these cells the tile may see; it is added to the other cells that the tile may see,
+  /// where it belongs. Both are those of order_front_to_back().
+  Result<CellBatch> refined(const std::vector<OpenCellInSight>& open, const Sight& sight,
+                            std::vector<VisibleCell>& visible);
 
   /// What has been solved so far.
   using Solved = std::shared_ptr<const SolvedPixels>;
@@ -66,8 +68,10 @@ class CellSupply {
   const Cell& cell_in(Place place) const;
   /// Puts into a place what the cell is there now, if that has been known before.
   void follow(Place place, CellLink link);
-  /// Flattens the jobs side by side, and puts what they give into its places.
-  Status run(const std::vector<Job>& jobs, const Wanted& wanted, CellBatch& batch);
+  /// Flattens the jobs side by side, and puts what they give into its places. `ends`, if any, gets
+  /// how many visible cells the batch has after each.
+  Status run(const std::vector<Job>& jobs, const Wanted& wanted, CellBatch& batch,
+             std::vector<size_t>* ends = nullptr);
 
   const Scene& scene_;
   const CellTree tree_;

@@ -24,7 +24,7 @@ void order_front_to_back(const FlatCells& flat, const Box& region, const Sight& 
       continue;
     }
     if (now.what == kOpenPlace) {
-      open.push_back({now.box, now.place});
+      open.push_back({now.box, now.place, cells.size()});
       continue;
     }
     const FlatNode& node = flat.nodes[now.what];

@@ -11,6 +11,7 @@ namespace whittle {
 struct OpenCellInSight {
   Box box;
   Place place;
+  size_t rank;  ///< how many of the cells come before
 };
 
 /// No ray meets a later cell before an earlier one. Cells that the tile cannot see may be missing.

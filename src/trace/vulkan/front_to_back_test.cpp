@@ -136,6 +136,20 @@ TEST(FrontToBack, IsTheOrderOfEveryRayAndMissesNoCell) {
   EXPECT_GT(met, 10000);
 }
 
+bool same(const VisibleCell& a, const VisibleCell& b) {
+  return a.cell == b.cell && a.leaf_case == b.leaf_case && a.is_wide == b.is_wide;
+}
+
+/// To order the cells once more gives the same, and no open cell.
+void expect_nothing_is_left(const CellSupply& supply, const Sight& sight,
+                            const std::vector<VisibleCell>& visible) {
+  std::vector<VisibleCell> again;
+  std::vector<OpenCellInSight> open;
+  order_front_to_back(supply.flat(), supply.region(), sight, again, open);
+  EXPECT_TRUE(open.empty());
+  EXPECT_TRUE(std::ranges::equal(visible, again, same));
+}
+
 /// What a stream gives, all batches in a row; all pixels left of `solved_to` are said to be solved.
 std::vector<VisibleCell> stream_of(CellSupply& supply, const Sight& sight, const Camera& camera,
                                    int solved_to, int& batches) {
@@ -185,9 +199,8 @@ TEST(FrontToBack, AStreamHasTheSameOrderAndWhatIsSeenLaterIsStillThere) {
         std::vector<OpenCellInSight> open;
         const Sight from(subject.sight(other));
         order_front_to_back(supply.flat(), supply.region(), from, seen, open);
-        ASSERT_TRUE(supply.refined(open, from));
-        order_front_to_back(supply.flat(), supply.region(), from, seen, open);
-        EXPECT_TRUE(open.empty());
+        ASSERT_TRUE(supply.refined(open, from, seen));
+        expect_nothing_is_left(supply, from, seen);
         std::map<uint32_t, Box> now = boxes_of(supply.flat(), supply.region());
         for (const Box& leaf : leaves) {
           if (std::ranges::none_of(now, [&](const auto& b) { return b.second == leaf; }))
@@ -226,9 +239,6 @@ TEST(FrontToBack, AStreamFromItsOwnThreadIsTheSame) {
       is_last = batch->is_last;
     }
   }
-  const auto same = [](const VisibleCell& a, const VisibleCell& b) {
-    return a.cell == b.cell && a.leaf_case == b.leaf_case && a.is_wide == b.is_wide;
-  };
   EXPECT_TRUE(std::ranges::equal(visible, whole, same));
 
   // Nobody need wait for its end.
@@ -245,9 +255,8 @@ std::vector<Box> seen_by(CellSupply& supply, const Sight& sight) {
   std::vector<OpenCellInSight> open;
   supply.follow();
   order_front_to_back(supply.flat(), supply.region(), sight, visible, open);
-  EXPECT_TRUE(supply.refined(open, sight));
-  order_front_to_back(supply.flat(), supply.region(), sight, visible, open);
-  EXPECT_TRUE(open.empty());
+  EXPECT_TRUE(supply.refined(open, sight, visible));
+  expect_nothing_is_left(supply, sight, visible);
   const std::map<uint32_t, Box> all = boxes_of(supply.flat(), supply.region());
   std::vector<Box> boxes;
   for (const VisibleCell& cell : visible) boxes.push_back(all.at(cell.cell));

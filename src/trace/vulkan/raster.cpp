@@ -138,8 +138,7 @@ class RasterTracerImpl final : public RasterTracer {
     const Stopwatch watch;
     order_front_to_back(supply_.flat(), supply_.region(), sight, visible_, open_);
     if (!open_.empty()) {
-      if (Status done = send(supply_.refined(open_, sight)); !done) return done;
-      order_front_to_back(supply_.flat(), supply_.region(), sight, visible_, open_);
+      if (Status done = send(supply_.refined(open_, sight, visible_)); !done) return done;
     }
     stats.order_ms += watch.milliseconds();
     return drawer_.draw(view, visible_, supply_.cell_count(), layer, stats, part);
