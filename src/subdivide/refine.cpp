@@ -401,6 +401,7 @@ Cell* Refiner::new_pair() {
     ::new (cell) Cell;
     if (has_threshold_) across(*cell) = kNowhere;
   }
+  if (has_threshold_) pair_of(*pair).changed = 0;
   stats_.memory_bytes += bytes;
   return pair;
 }
@@ -443,7 +444,7 @@ bool Refiner::simple_enough() const {
 }
 
 RefinerPool::RefinerPool(const Scene& scene, const SubdivideSettings& settings)
-    : scene_(scene), settings_(settings), boxes_(scene), root_{{}, {kNowhere, kNowhere}} {
+    : scene_(scene), settings_(settings), boxes_(scene), root_{{}, {kNowhere, kNowhere}, 0} {
   open_root();
 }
 

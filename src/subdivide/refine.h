@@ -36,20 +36,27 @@ struct OpenCell {
   static size_t bytes(size_t tokens) { return sizeof(OpenCell) + tokens * sizeof(Token); }
 };
 
-/// Two cells in a row, aligned so that either tells where the pair begins. Where there is a
-/// threshold, what each of them would be on its other side stands behind.
+/// Two cells in a row, aligned so that either tells where the pair begins. What follows them is
+/// there only if there is a threshold: what each of them would be on its other side, and the last
+/// move of it that changed one of them or anything below.
 struct alignas(2 * sizeof(Cell)) CellPair {
   Cell cells[2];
   uint64_t across[2];
+  uint64_t changed;
 };
+
+/// The pair of which a cell is one.
+inline CellPair& pair_of(const Cell& cell) {
+  const auto at = reinterpret_cast<uintptr_t>(&cell);
+  return *reinterpret_cast<CellPair*>(at - at % alignof(CellPair));
+}
 
 /// What a cell of a pair would be if it were small and is not, or the other way round: the bits of
 /// its link, and kIfSmall in the first case. Open: not known yet. kNowhere: the same as it is, or
 /// it is open and nobody knows at all.
 inline uint64_t& across(const Cell& cell) {
-  const auto at = reinterpret_cast<uintptr_t>(&cell);
-  const uintptr_t side = at / sizeof(Cell) % 2;
-  return reinterpret_cast<CellPair*>(at - side * sizeof(Cell))->across[side];
+  CellPair& pair = pair_of(cell);
+  return pair.across[&cell == pair.cells ? 0 : 1];
 }
 inline constexpr uint64_t kIfSmall = 1u << 6;
 inline constexpr uint64_t kNowhere = uint64_t(CellKind::kOpen);

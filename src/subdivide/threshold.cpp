@@ -18,16 +18,21 @@ constexpr uint64_t kMostPerUsed = 4, kFewCells = 4096;
 struct Place {
   const Cell* cell;
   Box box;
+  size_t depth = 0;  ///< below where a mover began
 };
 
 /// Moves cells from one side of a threshold to the other; for one thread.
 class Mover {
  public:
-  Mover(const IsSmall& is_small, Vec3 origin) : is_small_(is_small), origin_(origin) {}
+  /// `number`: of the move.
+  Mover(const IsSmall& is_small, Vec3 origin, uint64_t number)
+      : is_small_(is_small), origin_(origin), number_(number) {}
 
   /// Moves the cell, and adds what lies below it then.
   void move(const Place& at, std::vector<Place>& below) {
     ++moved_.cells;
+    pairs_.resize(at.depth);
+    if (at.depth > 0) pairs_.back() = &pair_of(*at.cell);
     uint64_t& there = across(*at.cell);
     CellLink link = at.cell->link();
     if (there != kNowhere) {
@@ -40,16 +45,19 @@ class Mover {
         ++kinds_[size_t(other.kind())];
         ++(small ? moved_.closed : moved_.opened);
         link = other;
+        note_change();
       }
     }
     if (link.kind() != CellKind::kNode) return;
-    Place low{link.children(), at.box}, high{link.children() + 1, at.box};
+    Place low{link.children(), at.box, at.depth + 1},
+        high{link.children() + 1, at.box, at.depth + 1};
     low.box.hi[link.axis()] = high.box.lo[link.axis()] = at.cell->split;
     below.push_back(high);
     below.push_back(low);
   }
-  void move_all(const Place& at) {
-    places_.assign(1, at);
+  /// Moves the cell and all below it.
+  void move_all(const Cell& cell, const Box& box) {
+    places_.assign(1, {&cell, box});
     while (!places_.empty()) {
       const Place next = places_.back();
       places_.pop_back();
@@ -62,9 +70,16 @@ class Mover {
   const std::array<uint64_t, kCellKinds>& kinds() const { return kinds_; }
 
  private:
+  void note_change() {
+    for (size_t i = pairs_.size(); i-- > 0 && pairs_[i]->changed != number_;)
+      pairs_[i]->changed = number_;
+  }
+
   const IsSmall& is_small_;
   Vec3 origin_;
+  uint64_t number_;
   std::vector<Place> places_;
+  std::vector<CellPair*> pairs_;  ///< on the way down to the cell
   MovedThreshold moved_;
   std::array<uint64_t, kCellKinds> kinds_{};
 };
@@ -79,12 +94,15 @@ MovedThreshold RefinerPool::move(IsSmall is_small, const Workers& workers) {
   std::vector<Place> level{{&root(), scene_.region}}, below;
   while (!level.empty() && level.size() < kEnough) {
     below.clear();
-    for (const Place& at : level) movers.of(0, settings_.is_small, scene_.origin).move(at, below);
+    Mover& mover = movers.of(0, settings_.is_small, scene_.origin, moves_);
+    for (const Place& at : level) mover.move({at.cell, at.box}, below);
     std::swap(level, below);
+    // Several movers may change what is below: it counts as changed.
+    for (const Place& at : level) pair_of(*at.cell).changed = moves_;
   }
   workers.for_parts(level.size(), 1, [&](size_t first, size_t last, size_t worker) {
-    Mover& mover = movers.of(worker, settings_.is_small, scene_.origin);
-    for (size_t i = first; i < last; ++i) mover.move_all(level[i]);
+    Mover& mover = movers.of(worker, settings_.is_small, scene_.origin, moves_);
+    for (size_t i = first; i < last; ++i) mover.move_all(*level[i].cell, level[i].box);
   });
   MovedThreshold sum;
   Refiner& refiner = take();

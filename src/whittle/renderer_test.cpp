@@ -144,6 +144,10 @@ TEST(Renderer, ThePixelThresholdReachesTheCells) {
   EXPECT_LT(cells(8), cells(2));
 }
 
+constexpr const char* kManyCuts =
+    "difference() { cube(20, center = true); sphere(12); translate([4, 4, 4]) sphere(9);"
+    "translate([-8, 2, 9]) cylinder(r = 4, h = 30, center = true); }";
+
 /// By the paper's rules.
 RendererSettings paper_settings(Backend backend) {
   RendererSettings settings;
@@ -156,9 +160,7 @@ RendererSettings paper_settings(Backend backend) {
 }
 
 TEST(Renderer, KeepsItsCellsForOtherCamerasAndShowsWhatAFreshOneShows) {
-  const Model model = model_of(
-      "difference() { cube(20, center = true); sphere(12); translate([4, 4, 4]) sphere(9);"
-      "translate([-8, 2, 9]) cylinder(r = 4, h = 30, center = true); }");
+  const Model model = model_of(kManyCuts);
   ShadeSettings look;
   look.shadows = true;
   for (const uint32_t leaf_size : {2u, kAutoLeafSize}) {
@@ -191,8 +193,23 @@ TEST(Renderer, KeepsItsCellsForOtherCamerasAndShowsWhatAFreshOneShows) {
   }
 }
 
+TEST(Renderer, WithALeafSizeOfAutoAPictureOfAnotherSizeHasItsOwnCells) {
+  const Model model = model_of(kManyCuts);
+  RendererSettings settings;
+  settings.backend = Backend::kCpu;
+  settings.pixel_threshold = 1;
+  ViewOptions view = small_view();
+  Result<Renderer> kept = Renderer::make(model, settings), fresh = Renderer::make(model, settings);
+  ASSERT_TRUE(kept->prepare(kept->camera(view), Refine::kAll));
+  view.width = view.height = 400;
+  const Camera camera = kept->camera(view);
+  ASSERT_TRUE(kept->trace(camera));
+  ASSERT_TRUE(fresh->prepare(camera, Refine::kAll));
+  EXPECT_EQ(statistics_of(*kept->cells()).cells, statistics_of(*fresh->cells()).cells);
+}
+
 TEST(Renderer, ShadesAPictureAsItsOwnCameraSeesIt) {
-  const Model model = model_of(kPart);
+  const Model model = model_of(kManyCuts);
   Result<Renderer> renderer = Renderer::make(model, paper_settings(Backend::kCpu));
   ViewOptions view = small_view();
   const Camera near = renderer->camera(view);

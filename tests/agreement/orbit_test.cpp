@@ -95,7 +95,7 @@ void expect_little_work(Orbit& orbit) {
   EXPECT_GT(orbit.hits(), kDegrees * 2000);
 }
 
-/// Near, inside, and so far that the whole model is small: its first cell is open again after that.
+/// Near, inside, and so far that the whole model is small.
 void expect_the_same_anywhere(Orbit& orbit) {
   for (const double distance : {250.0, 80.0, 20.0, 500.0, 1e5, 400.0, 1500.0, 1e5, 420.0, 80.0}) {
     SCOPED_TRACE(distance);

@@ -48,29 +48,34 @@ const Cell& CellSupply::cell_in(Place place) const {
 }
 
 void CellSupply::follow() {
-  if (tree_.refiner_pool->moves() == moves_) return;
-  moves_ = tree_.refiner_pool->moves();
-  std::vector<Place> places(1);
-  while (!places.empty()) {
-    const Place place = places.back();
-    places.pop_back();
-    follow(place, cell_in(place).link());
-    const uint32_t what = flat_.at(place);
-    if (is_node(what)) places.insert(places.end(), {{what, 1}, {what, 0}});
+  const uint64_t moves = tree_.refiner_pool->moves();
+  if (moves == moves_) return;
+  std::vector<Followed> items{{{}, moves_}};
+  while (!items.empty()) {
+    Followed now = items.back();
+    items.pop_back();
+    follow(now);
+    const uint32_t what = flat_.at(now.place);
+    if (!is_node(what) || pair_of(*flat_.nodes[what].cells).changed <= now.moves) continue;
+    for (const uint32_t side : {1u, 0u}) items.push_back({{what, side}, now.moves});
   }
+  moves_ = moves;
 }
 
-void CellSupply::follow(Place place, CellLink link) {
-  uint32_t& what = flat_.at(place);
+/// Puts into a place what the cell is there now, if that has been known before.
+void CellSupply::follow(Followed& at) {
+  const CellLink link = cell_in(at.place).link();
+  uint32_t& what = flat_.at(at.place);
   const void* was = nullptr;
   if (is_node(what)) was = flat_.nodes[what].cells;
   if (is_cell(what)) was = flat_.leaves[what & ~kCellBit];
   const void* const is = has_place(link.kind()) ? link.target() : nullptr;
   if (was == is && was != nullptr) return;
-  if (was != nullptr) aside_[was] = what;
+  if (was != nullptr) aside_[was] = {what, at.moves};
   const auto known = is != nullptr ? aside_.find(is) : aside_.end();
   if (known != aside_.end()) {
-    what = known->second;
+    what = known->second.what;
+    at.moves = known->second.moves;
     aside_.erase(known);
   } else if (what != kOpenPlace) {
     what = may_show(link) ? kOpenPlace : kNoChild;

@@ -65,9 +65,13 @@ class CellSupply {
   /// A batch ends when it has taken so long, or with everything.
   Status deliver(const Sight* sight, double milliseconds, const std::function<Solved()>& solved,
                  const Take& take);
+  /// A place, and the moves of the threshold that have been followed there.
+  struct Followed {
+    Place place;
+    uint64_t moves;
+  };
   const Cell& cell_in(Place place) const;
-  /// Puts into a place what the cell is there now, if that has been known before.
-  void follow(Place place, CellLink link);
+  void follow(Followed& at);
   /// Flattens the jobs side by side, and puts what they give into its places. `ends`, if any, gets
   /// how many visible cells the batch has after each.
   Status run(const std::vector<Job>& jobs, const Wanted& wanted, CellBatch& batch,
@@ -81,8 +85,12 @@ class CellSupply {
   FlatCells flat_;  ///< without the words that have gone
   uint32_t cell_count_ = 0, word_count_ = 0;
   uint64_t moves_ = 0;  ///< of the threshold, that have been followed
+  struct Aside {
+    uint32_t what;
+    uint64_t moves;  ///< that have been followed there
+  };
   /// What is out of use, by the leaf or the pair of cells that it was made of.
-  std::unordered_map<const void*, uint32_t> aside_;
+  std::unordered_map<const void*, Aside> aside_;
 };
 
 }  // namespace whittle
