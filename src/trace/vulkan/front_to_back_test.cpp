@@ -136,7 +136,7 @@ TEST(FrontToBack, IsTheOrderOfEveryRayAndMissesNoCell) {
   EXPECT_GT(met, 10000);
 }
 
-bool same(const VisibleCell& a, const VisibleCell& b) {
+bool same_cell(const VisibleCell& a, const VisibleCell& b) {
   return a.cell == b.cell && a.leaf_case == b.leaf_case && a.is_wide == b.is_wide;
 }
 
@@ -147,7 +147,7 @@ void expect_nothing_is_left(const CellSupply& supply, const Sight& sight,
   std::vector<OpenCellInSight> open;
   order_front_to_back(supply.flat(), supply.region(), sight, again, open);
   EXPECT_TRUE(open.empty());
-  EXPECT_TRUE(std::ranges::equal(visible, again, same));
+  EXPECT_TRUE(std::ranges::equal(visible, again, same_cell));
 }
 
 /// What a stream gives, all batches in a row; all pixels left of `solved_to` are said to be solved.
@@ -239,7 +239,7 @@ TEST(FrontToBack, AStreamFromItsOwnThreadIsTheSame) {
       is_last = batch->is_last;
     }
   }
-  EXPECT_TRUE(std::ranges::equal(visible, whole, same));
+  EXPECT_TRUE(std::ranges::equal(visible, whole, same_cell));
 
   // Nobody need wait for its end.
   const CellTree other = open_cells(subject.scene, subject.settings);
