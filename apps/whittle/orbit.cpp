@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <vector>
 
 #include "base/timing.h"
+#include "base/workers.h"
 #include "model/instances.h"
 
 namespace whittle {
@@ -44,11 +46,10 @@ Result<Json> measure_orbit(const Model& model, const RendererSettings& settings,
   if (!kept) return kept.error();
   Result<Renderer> afresh = Renderer::make(model, settings);
   if (!afresh) return afresh.error();
-  if (Status done = kept->prepare(start); !done) return done.error();
-  // A first picture may leave out what is hidden, a second one does not.
-  for (int i = 0; i < 2; ++i)
-    if (const Result<Frame> frame = kept->trace(start); !frame) return frame.error();
+  if (Status done = kept->prepare(start, Refine::kAll); !done) return done.error();
+  if (const Result<Frame> frame = kept->trace(start); !frame) return frame.error();
 
+  const Workers workers(settings.threads);
   const Vec3 about = view_region(bounds(model)).center();
   std::vector<double> step_ms, afresh_ms, subdivide_ms, share;
   std::vector<uint64_t> newly, all;
@@ -70,6 +71,7 @@ Result<Json> measure_orbit(const Model& model, const RendererSettings& settings,
     const Result<Frame> expected = afresh->trace(camera);
     afresh_ms.push_back(other_watch.milliseconds());
     if (!expected) return expected.error();
+    if (afresh->cells() != nullptr) refine_all(*afresh->cells(), workers);
     all.push_back(refined(*afresh));
     share.push_back(all.back() > 0 ? double(newly.back()) / double(all.back()) : 0);
     if (const size_t differ = differing(*frame, *expected); differ != 0)
@@ -88,6 +90,7 @@ Result<Json> measure_orbit(const Model& model, const RendererSettings& settings,
   json["median_step_ms"] = median(step_ms);
   json["median_afresh_ms"] = median(afresh_ms);
   json["median_refined_share"] = median(share);
+  json["refined_share_in_all"] = std::accumulate(share.begin(), share.end(), 0.0);
   json["most_refined_share"] = *std::ranges::max_element(share);
   return json;
 }

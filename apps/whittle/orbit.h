@@ -9,10 +9,10 @@
 namespace whittle {
 
 /// Pictures in steps of one degree about the vertical through the middle of the model's bounds.
-/// Each is made twice: by one renderer that keeps its cells, and by another afresh. Tells of every
-/// step the milliseconds of both from cells to facts, and the cells that both refined. The start is
-/// no step: there all is refined that its picture may meet. A kInput error if the two ever differ
-/// in a bit.
+/// Each is made twice: by one renderer that keeps its cells and refines all that become open, and
+/// by another afresh, where rays come. Tells of every step the milliseconds of both, from the moved
+/// camera to the facts, and how many cells were refined, of all that a fresh tree refines. A kInput
+/// error if the two pictures ever differ in a bit.
 Result<nlohmann::ordered_json> measure_orbit(const Model& model, const RendererSettings& settings,
                                              const Camera& start, int steps);
 
