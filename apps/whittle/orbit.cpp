@@ -46,8 +46,10 @@ Result<Json> measure_orbit(const Model& model, const RendererSettings& settings,
   if (!kept) return kept.error();
   Result<Renderer> afresh = Renderer::make(model, settings);
   if (!afresh) return afresh.error();
-  if (Status done = kept->prepare(start, Refine::kAll); !done) return done.error();
-  if (const Result<Frame> frame = kept->trace(start); !frame) return frame.error();
+  if (Status done = kept->prepare(start); !done) return done.error();
+  // A first picture may leave out what is hidden, a second one does not.
+  for (int i = 0; i < 2; ++i)
+    if (const Result<Frame> frame = kept->trace(start); !frame) return frame.error();
 
   const Workers workers(settings.threads);
   const Vec3 about = view_region(bounds(model)).center();

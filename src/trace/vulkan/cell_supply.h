@@ -37,7 +37,8 @@ class CellSupply {
   void follow();
 
   /// All that the tile may see, or everything if there is none; in no order. Precondition of this
-  /// and of stream(): nothing has come since the root was open.
+  /// and of stream(): nothing but the root has a place in flat(), as at the beginning or where
+  /// is_open().
   Result<CellBatch> at_once(const Sight* sight);
   /// What of these cells the tile may see; it is added to the other cells that the tile may see,
   /// where it belongs. Both are those of order_front_to_back().
