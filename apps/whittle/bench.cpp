@@ -21,6 +21,7 @@
 #include "console.h"
 #include "option_group.h"
 #include "oracle_check.h"
+#include "orbit.h"
 #include "statistics.h"
 #include "trace/oracle/oracle.h"
 #include "trace/vulkan/raster.h"
@@ -47,6 +48,7 @@ constexpr CommandHelp kHelp = {
 struct BenchArguments {
   std::vector<std::string> files;
   int repeat = 5;
+  int orbit = 0;  ///< steps
   bool wants_json = false;
   Loading loading;
   ViewOptions view;
@@ -244,6 +246,11 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   // Last of all: the peak of memory and the counts above are not the oracle's, nor this look's.
   if (Status right = check(file, read->model, camera, *renderer, a.renderer, json); !right)
     return right.error();
+  if (a.orbit > 0) {
+    Result<Json> orbit = measure_orbit(read->model, a.renderer, camera, a.orbit);
+    if (!orbit) return Error{orbit.error().kind, file + ": error: " + orbit.error().message};
+    json["orbit"] = *std::move(orbit);
+  }
   return json;
 }
 
@@ -322,6 +329,15 @@ std::string table_of(const Json& m) {
   text += '\n';
   fmt::format_to(out, "  {:<12}{:>10}    at most\n", "memory",
                  describe_bytes(count("peak_memory_bytes")));
+  if (m.contains("orbit")) {
+    const Json& orbit = m["orbit"];
+    const auto value = [&](const char* name) { return orbit[name].get<double>(); };
+    fmt::format_to(out,
+                   "  {:<12}{:>10.2f} ms a degree, afresh {:.2f} ms; of its cells {:.2f} % are "
+                   "refined, at most {:.2f} %\n",
+                   "orbit", value("median_step_ms"), value("median_afresh_ms"),
+                   100 * value("median_refined_share"), 100 * value("most_refined_share"));
+  }
   fmt::format_to(out, "  {:<12}{:>10}    places as the oracle sees them, {} ambiguous, {} wrong\n",
                  "checked", count("checked") - count("wrong"), count("ambiguous"), count("wrong"));
   return text;
@@ -330,13 +346,16 @@ std::string table_of(const Json& m) {
 }  // namespace
 
 int bench_command(Arguments arguments) {
-  constexpr int kMostRepeats = 100000;
+  constexpr int kMostRepeats = 100000, kMostSteps = 100000;
   CommandLine line(kHelp);
   CLI::App& app = line.app();
   BenchArguments a;
   line.add_required("FILE", a.files);
   OptionGroup group(app, "Measurement");
   group.add_count("--repeat", "N", a.repeat, 1, kMostRepeats, "times that all is done (5)");
+  group.add_count("--orbit", "N", a.orbit, 0, kMostSteps,
+                  "then goes N degrees around the model, and says what each\n"
+                  "takes if cells are kept, and afresh (0)");
   group.add_flag("--json", a.wants_json, "an array with one object a file");
   add_view_options(app, a.view);
   add_loading_options(app, a.loading);

@@ -1,8 +1,10 @@
 // The cells: a binary tree of boxes, each leaf with a formula that is right inside it and as short
-// as can be. View-independent, unless small cells are decided by a pixel threshold.
+// as can be. View-independent, unless small cells are decided by a threshold; that may move
+// (threshold.h).
 //
 // A tree is lazy: cells start open, and whoever meets one first refines it (refine.h). Cells and
-// leaves never move, and what is no longer open never changes, so any number of threads may read.
+// leaves never move in memory, and what is no longer open changes only where a threshold moves, so
+// any number of threads may read.
 #pragma once
 
 #include <array>
@@ -106,12 +108,13 @@ struct Cell {
 };
 static_assert(sizeof(Cell) == 16);
 
-/// What there is so far.
+/// What there is so far; with a threshold that moved, what lies below cells that became small too.
 struct SubdivideStats {
   std::array<uint64_t, kCellKinds> cells{};  ///< by CellKind
   std::vector<uint64_t> leaves_by_size;      ///< leaves with i literals
   uint32_t depth = 0;                        ///< splits on the longest way down
   uint64_t classified = 0;                   ///< operands looked at
+  uint64_t refined = 0;                      ///< cells that were open and became something
   size_t memory_bytes = 0;
 
   uint64_t cell_count() const;

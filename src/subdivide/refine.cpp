@@ -74,6 +74,7 @@ void wait_a_little(int round) {
 Refiner::Refiner(const Scene& scene, const UnitBoxes& boxes, const SubdivideSettings& settings)
     : scene_(scene),
       settings_(settings),
+      has_threshold_(bool(settings.is_small)),
       region_edge_(max_component(scene.region.size())),
       simplifier_(scene, boxes, region_edge_ * kCellMargin),
       analysis_(scene) {}
@@ -90,9 +91,12 @@ CellLink Refiner::refined(const Cell& cell, const Helpers* helpers) {
     const OpenCell& open = *static_cast<const OpenCell*>(link.target());
     try {
       const CellLink result = refine(cell, open, helpers);
+      const bool keeps = has_threshold_ && keep_formula(cell, link);
       cell.bits.store(result.bits(), std::memory_order_release);
       --stats_.cells[size_t(CellKind::kOpen)];
       ++stats_.cells[size_t(result.kind())];
+      ++stats_.refined;
+      if (keeps) return result;
       const size_t bytes = OpenCell::bytes(open.token_count);
       stats_.memory_bytes -= bytes;
       open_cells_.give(const_cast<OpenCell*>(&open), bytes);
@@ -140,14 +144,19 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
   const double rays = edge * edge * settings_.rays;
   const bool is_auto = settings_.leaf_size == kAutoLeafSize;
   const bool useless =
-      !settings_.is_small && (is_auto ? !pays_off(open.literals, rays)
-                                      : edge * edge * open.literals < settings_.least_use);
+      !has_threshold_ && (is_auto ? !pays_off(open.literals, rays)
+                                  : edge * edge * open.literals < settings_.least_use);
   const size_t split_bytes = 2 * (sizeof(Cell) + bytes_unsplit(open.literals, open.token_count));
-  const bool must_end = small || useless || edge * 0.5 < settings_.smallest_edge ||
-                        open.stalled >= stall_limit(open.literals) || open.depth >= kMostDepth ||
-                        open.memory < split_bytes;
+  const bool must_end_anyway = useless || edge * 0.5 < settings_.smallest_edge ||
+                               open.stalled >= stall_limit(open.literals) ||
+                               open.depth >= kMostDepth || open.memory < split_bytes;
+  const bool must_end = small || must_end_anyway;
   std::span<const Token> formula = open.tokens();
-  if (open.literals > kExpandAll && !must_end && !has_few_half_spaces(formula)) return false;
+  const bool is_long =
+      open.literals > kExpandAll && !must_end_anyway && !has_few_half_spaces(formula);
+  is_small_ = small;
+  across_ = is_long ? Across::kUnknown : Across::kSame;
+  if (is_long && !small) return false;
   if (has_units(formula)) {
     const Truth truth = simplifier_.simplify(formula, open.box, true, expanded_);
     if (truth != Truth::kVaries) {
@@ -162,10 +171,23 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
     return true;
   }
   const bool simple = is_auto ? !pays_off(analysis_.size(), rays) : simple_enough();
+  if (!simple && (!must_end_anyway || settings_.ignore_small))
+    across_ = settings_.ignore_small && !small ? Across::kIgnored : Across::kUnknown;
   if (!must_end && !simple) return false;
   link =
       small && settings_.ignore_small && !simple ? CellLink(CellKind::kIgnored, nullptr) : leaf();
   return true;
+}
+
+/// Notes what the cell that was refined is across the threshold. Whether its formula is needed to
+/// find that out.
+bool Refiner::keep_formula(const Cell& cell, CellLink open) const {
+  uint64_t& there = across(cell);
+  if (there != kNowhere || across_ == Across::kSame) return false;
+  const bool unknown = across_ == Across::kUnknown;
+  there = (unknown ? open : CellLink(CellKind::kIgnored, nullptr)).bits();
+  if (!is_small_) there |= kIfSmall;
+  return unknown;
 }
 
 CellLink Refiner::decided(bool full) {
@@ -241,7 +263,7 @@ CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
 /// Whether the cell is worth splitting many times at once. Where small cells end early, each split
 /// has to be looked at.
 bool Refiner::is_wide(const OpenCell& open) const {
-  return open.token_count >= kWide && !settings_.is_small && open.depth < kMostDepth / 2 &&
+  return open.token_count >= kWide && !has_threshold_ && open.depth < kMostDepth / 2 &&
          operand_count(open.tokens()) >= kWide;
 }
 
@@ -373,10 +395,14 @@ CellLink Refiner::join(const Cell& cell, const SplitGrid& grid, std::vector<Cell
 }
 
 Cell* Refiner::new_pair() {
-  auto* const pair = static_cast<Cell*>(cells_.allocate(2 * sizeof(Cell), 2 * sizeof(Cell)));
-  ::new (pair) Cell;
-  ::new (pair + 1) Cell;
-  stats_.memory_bytes += 2 * sizeof(Cell);
+  const size_t bytes = bytes_of_pair();
+  auto* const pair = static_cast<Cell*>(cells_.allocate(bytes, alignof(CellPair)));
+  for (Cell* const cell : {pair, pair + 1}) {
+    ::new (cell) Cell;
+    if (has_threshold_) across(*cell) = kNowhere;
+  }
+  if (has_threshold_) pair_of(*pair).changed = 0;
+  stats_.memory_bytes += bytes;
   return pair;
 }
 
@@ -418,7 +444,7 @@ bool Refiner::simple_enough() const {
 }
 
 RefinerPool::RefinerPool(const Scene& scene, const SubdivideSettings& settings)
-    : scene_(scene), settings_(settings), boxes_(scene) {
+    : scene_(scene), settings_(settings), boxes_(scene), root_{{}, {kNowhere, kNowhere}, 0} {
   open_root();
 }
 
@@ -435,7 +461,7 @@ void RefinerPool::open_root() {
     link = truth == Truth::kVaries ? refiner.open(whole, formula)
                                    : refiner.decided(truth == Truth::kTrue);
   }
-  root_.bits.store(link.bits(), std::memory_order_relaxed);
+  root().bits.store(link.bits(), std::memory_order_relaxed);
   ++refiner.stats_.cells[size_t(link.kind())];
   refiner.stats_.memory_bytes += sizeof(Cell);
   give(refiner);
@@ -469,6 +495,7 @@ SubdivideStats RefinerPool::stats() const {
       sum.leaves_by_size[size] += part.leaves_by_size[size];
     sum.depth = std::max(sum.depth, part.depth);
     sum.classified += part.classified;
+    sum.refined += part.refined;
     sum.memory_bytes += part.memory_bytes;
   }
   return sum;

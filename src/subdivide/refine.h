@@ -16,6 +16,7 @@
 #include "subdivide/leaf.h"
 #include "subdivide/simplify.h"
 #include "subdivide/subdivide.h"
+#include "subdivide/threshold.h"
 #include "subdivide/wide.h"
 
 namespace whittle {
@@ -34,6 +35,31 @@ struct OpenCell {
   }
   static size_t bytes(size_t tokens) { return sizeof(OpenCell) + tokens * sizeof(Token); }
 };
+
+/// Two cells in a row, aligned so that either tells where the pair begins. What follows them is
+/// there only if there is a threshold: what each of them would be on its other side, and the last
+/// move of it that changed one of them or anything below.
+struct alignas(2 * sizeof(Cell)) CellPair {
+  Cell cells[2];
+  uint64_t across[2];
+  uint64_t changed;
+};
+
+/// The pair of which a cell is one.
+inline CellPair& pair_of(const Cell& cell) {
+  const auto at = reinterpret_cast<uintptr_t>(&cell);
+  return *reinterpret_cast<CellPair*>(at - at % alignof(CellPair));
+}
+
+/// What a cell of a pair would be if it were small and is not, or the other way round: the bits of
+/// its link, and kIfSmall in the first case. Open: not known yet. kNowhere: the same as it is, or
+/// it is open and nobody knows at all.
+inline uint64_t& across(const Cell& cell) {
+  CellPair& pair = pair_of(cell);
+  return pair.across[&cell == pair.cells ? 0 : 1];
+}
+inline constexpr uint64_t kIfSmall = 1u << 6;
+inline constexpr uint64_t kNowhere = uint64_t(CellKind::kOpen);
 
 class Refiner;
 
@@ -57,8 +83,13 @@ class Refiner {
  private:
   friend class RefinerPool;
 
+  /// Whether a cell would be another one across the threshold, and how much is known of that.
+  enum class Across { kSame, kIgnored, kUnknown };
+
   CellLink refine(const Cell& cell, const OpenCell& open, const Helpers* helpers);
   bool ends(const OpenCell& open, CellLink& link);
+  bool keep_formula(const Cell& cell, CellLink open) const;
+  size_t bytes_of_pair() const { return has_threshold_ ? sizeof(CellPair) : 2 * sizeof(Cell); }
   /// The two parts of a cell cut in the middle: boxes, truths, formulas.
   struct Halves {
     int axis = 0;
@@ -89,6 +120,7 @@ class Refiner {
 
   const Scene& scene_;
   const SubdivideSettings& settings_;
+  const bool has_threshold_;
   double region_edge_;
   Arena cells_, leaves_;
   BlockPool open_cells_;
@@ -96,6 +128,9 @@ class Refiner {
   LeafAnalysis analysis_;
   Halves halves_, others_;
   Formula expanded_;
+  // Of the cell that is refined.
+  bool is_small_ = false;
+  Across across_ = Across::kSame;
   std::vector<const Cell*> pending_;
   /// Counters wrap: a cell that one refiner opened may be refined by another.
   SubdivideStats stats_;
@@ -111,16 +146,22 @@ class RefinerPool {
   void give(Refiner& refiner);
 
   /// The region's cell.
-  const Cell& root() const { return root_; }
+  const Cell& root() const { return root_.cells[0]; }
   SubdivideStats stats() const;
+
+  /// See threshold.h.
+  MovedThreshold move(IsSmall is_small, const Workers& workers);
+  /// How often that was done.
+  uint64_t moves() const { return moves_; }
 
  private:
   void open_root();
 
   const Scene& scene_;
-  const SubdivideSettings settings_;
+  SubdivideSettings settings_;
   const UnitBoxes boxes_;
-  Cell root_;
+  CellPair root_;  ///< its first cell is the root
+  uint64_t moves_ = 0;
   std::mutex mutex_;
   std::vector<std::unique_ptr<Refiner>> all_;
   std::vector<Refiner*> unused_;

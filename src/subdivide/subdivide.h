@@ -38,6 +38,9 @@ enum class LeafRule {
 /// (docs/decisions/0014-leaf-size.md).
 inline constexpr uint32_t kAutoLeafSize = 0;
 
+/// Whether a cell is small, by its box.
+using IsSmall = std::function<bool(const Box&)>;
+
 struct SubdivideSettings {
   /// Half-spaces (or primitives) that a leaf may hold, or kAutoLeafSize.
   uint32_t leaf_size = kAutoLeafSize;
@@ -54,8 +57,8 @@ struct SubdivideSettings {
   /// No cell's edge gets smaller than this share of the region's longest edge, whatever is in it.
   double smallest_edge = 1.0 / 16384;
   /// If set: a cell (world coordinates) for which this holds is not split any more. The paper's
-  /// pixel threshold makes cells depend on the camera.
-  std::function<bool(const Box&)> is_small;
+  /// pixel threshold makes cells depend on the camera; threshold.h moves it. Pure.
+  IsSmall is_small;
   /// Drop the leaves that `is_small` stopped, as the paper did.
   bool ignore_small = false;
   /// What the cells may take, bytes. Where it runs out cells are not split any more, and leaves

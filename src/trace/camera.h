@@ -15,6 +15,8 @@ struct Camera {
   double ortho_reach = 0;  ///< orthographic: rays start this far behind the eye's plane
   int width = 512, height = 512;
 
+  bool operator==(const Camera&) const = default;
+
   /// The ray through picture position (px, py) in pixels: (0, 0) is the top left corner of the
   /// picture, pixel (i, j) has its centre at (i + 0.5, j + 0.5); pixels are square.
   Ray ray(double px, double py) const {

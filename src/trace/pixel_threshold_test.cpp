@@ -25,6 +25,10 @@ Camera orthographic_camera() {
   return camera;
 }
 
+bool is_below_pixels(const Camera& camera, const Box& box, double pixels) {
+  return PixelThreshold(camera, pixels)(box);
+}
+
 Box cube_at(Vec3 center, double edge) {
   const Vec3 half = Vec3{1, 1, 1} * (edge / 2);
   return {center - half, center + half};

@@ -14,6 +14,7 @@
 #include "lower/lower.h"
 #include "model/instances.h"
 #include "subdivide/solid_bounds.h"
+#include "subdivide/threshold.h"
 #include "trace/oracle/oracle.h"
 #include "trace/pixel_threshold.h"
 #include "trace/vulkan/raster.h"
@@ -47,6 +48,7 @@ struct Renderer::State {
   Scene scene;
   std::optional<CutFaces> cut_faces;  ///< made when a style first asks
   std::optional<CellTree> cells;
+  Camera cells_camera;  ///< which cells are small for it, if there is a pixel threshold
   std::unique_ptr<Tracer> tracer;
   CpuTracer* cpu = nullptr;        ///< the tracer, if it is that one
   RasterTracer* raster = nullptr;  ///< or that one
@@ -60,7 +62,9 @@ struct Renderer::State {
 
   Status choose_backend();
   Status make_tracer(const Camera& camera);
-  /// Gives back what that made.
+  /// With a pixel threshold: makes the cells what they are for another camera.
+  Status look_from(const Camera& camera);
+  /// Gives back what make_tracer() made.
   void discard();
   /// After a refusal: true if the CPU goes on, else the refusal stands.
   bool falls_back(const Error& refusal, const Camera& camera);
@@ -139,12 +143,10 @@ Status Renderer::State::make_tracer(const Camera& camera) {
   const Stopwatch watch;
   SubdivideSettings subdivision = settings.subdivide;
   subdivision.rays = double(camera.width) * double(camera.height);
-  if (settings.pixel_threshold > 0) {
-    subdivision.is_small = [camera, pixels = settings.pixel_threshold](const Box& box) {
-      return is_below_pixels(camera, box, pixels);
-    };
-  }
+  if (settings.pixel_threshold > 0)
+    subdivision.is_small = PixelThreshold(camera, settings.pixel_threshold);
   cells = open_cells(scene, subdivision);
+  cells_camera = camera;
   const bool is_raster = settings.backend == Backend::kVulkanRaster;
   if (refine == Refine::kAll)
     refine_all(*cells, workers);
@@ -168,6 +170,22 @@ Status Renderer::State::make_tracer(const Camera& camera) {
   return Done{};
 }
 
+Status Renderer::State::look_from(const Camera& camera) {
+  if (!(settings.pixel_threshold > 0) || !cells || camera == cells_camera) return Done{};
+  // What pays off follows from how many rays there are.
+  const bool as_many_rays =
+      camera.width == cells_camera.width && camera.height == cells_camera.height;
+  if (settings.subdivide.leaf_size == kAutoLeafSize && !as_many_rays) return make_tracer(camera);
+  const Stopwatch watch;
+  const MovedThreshold moved =
+      move_threshold(*cells, PixelThreshold(camera, settings.pixel_threshold), workers);
+  cells_camera = camera;
+  if (moved.is_crowded) return make_tracer(camera);
+  if (refine == Refine::kAll) refine_all(*cells, workers);
+  times.subdivide = watch.milliseconds();
+  return Done{};
+}
+
 Status Renderer::prepare(const Camera& camera, Refine refine) {
   state_->refine = refine;
   Status made = state_->make_tracer(camera);
@@ -180,6 +198,9 @@ void Renderer::discard() {
 }
 
 Result<Frame> Renderer::trace(const Camera& camera, const Progress& progress) {
+  if (const Status looks = state_->look_from(camera);
+      !looks && !state_->falls_back(looks.error(), camera))
+    return looks.error();
   const Stopwatch watch;
   Frame frame = tracer().render(camera, progress);
   if (const Status status = tracer().status(); !status) {
@@ -193,6 +214,8 @@ Result<Frame> Renderer::trace(const Camera& camera, const Progress& progress) {
 Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
                                 const ShadeSettings& settings, int antialias) {
   State& s = *state_;
+  if (const Status looks = s.look_from(camera); !looks && !s.falls_back(looks.error(), camera))
+    return looks.error();
   const Stopwatch watch;
   ShadeSettings look = settings;
   if (look.style == Style::kOpenscad) {

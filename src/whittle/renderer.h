@@ -54,7 +54,8 @@ enum class Refine {
   kAll,            ///< before there are rays
 };
 
-/// Milliseconds that each stage took when it was last run.
+/// Milliseconds that each stage took when it was last run. A moved threshold is a part of
+/// `subdivide`.
 struct StageTimes {
   double lower = 0, frame = 0, subdivide = 0, trace = 0, shade = 0;
   double send = 0;  ///< cells that were there, to the device
@@ -62,6 +63,11 @@ struct StageTimes {
 
 /// One model and what is made of it. The steps are called in their order; each can be repeated, and
 /// makes its result anew. The model must outlive the renderer.
+///
+/// What prepare() makes serves pictures from any camera. With a pixel threshold the cells depend on
+/// the camera: where it has moved, trace() and shade() first refine the cells that are no longer
+/// small and leave out those that became it (subdivide/threshold.h). The pictures are those of a
+/// renderer made afresh.
 class Renderer {
  public:
   /// Fails if the model cannot be lowered, or the chosen backend has no device to work on. kAuto
@@ -76,8 +82,9 @@ class Renderer {
   /// where view-all is on. Of a solid that has no end, what bounds() says is framed.
   Camera camera(const ViewOptions& options);
 
-  /// Makes the cells, as far as they are not left to the rays, and the tracer. The camera counts
-  /// only if there is a pixel threshold. The oracle has no cells.
+  /// Makes the cells, as far as they are not left to the rays, and the tracer. The camera says how
+  /// many rays there will be, and with a pixel threshold which cells are small. The oracle has no
+  /// cells.
   /// Fails if the device refuses; with kAuto the CPU goes on in its place, here and below.
   Status prepare(const Camera& camera, Refine refine = Refine::kWhereRaysCome);
   /// Gives back what prepare() made; it may be called again.

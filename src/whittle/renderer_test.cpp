@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "io/read.h"
 #include "model/instances.h"
 
@@ -140,6 +142,84 @@ TEST(Renderer, ThePixelThresholdReachesTheCells) {
   };
   EXPECT_EQ(cells(1000), 1u) << "all of the model is smaller";
   EXPECT_LT(cells(8), cells(2));
+}
+
+constexpr const char* kManyCuts =
+    "difference() { cube(20, center = true); sphere(12); translate([4, 4, 4]) sphere(9);"
+    "translate([-8, 2, 9]) cylinder(r = 4, h = 30, center = true); }";
+
+/// By the paper's rules.
+RendererSettings paper_settings(Backend backend) {
+  RendererSettings settings;
+  settings.backend = backend;
+  settings.pixel_threshold = 1;
+  settings.subdivide.leaf_size = 2;
+  settings.subdivide.leaf = LeafRule::kPrimitives;
+  settings.subdivide.ignore_small = true;
+  return settings;
+}
+
+TEST(Renderer, KeepsItsCellsForOtherCamerasAndShowsWhatAFreshOneShows) {
+  const Model model = model_of(kManyCuts);
+  ShadeSettings look;
+  look.shadows = true;
+  for (const uint32_t leaf_size : {2u, kAutoLeafSize}) {
+    RendererSettings settings = paper_settings(Backend::kCpu);
+    settings.subdivide.leaf_size = leaf_size;
+    Result<Renderer> kept = Renderer::make(model, settings);
+    ViewOptions view;
+    ASSERT_TRUE(kept->prepare(kept->camera(small_view())));
+    uint64_t refined = 0;
+    for (int step = 0; step < 12; ++step) {
+      SCOPED_TRACE(step);
+      // Around, near and far; some pictures are larger.
+      view.width = view.height = step % 5 == 4 ? 96 : 64;
+      view.rotation_degrees = Vec3{55, 0, 7.0 * step};
+      view.distance = 60 + 30 * (step % 3);
+      view.orthographic = step == 7;
+      Result<Renderer> fresh = Renderer::make(model, settings);
+      const Camera camera = fresh->camera(view);
+      ASSERT_TRUE(fresh->prepare(camera));
+      const Frame frame = *kept->trace(camera), expected = *fresh->trace(camera);
+      ASSERT_EQ(frame.hits.size(), expected.hits.size());
+      EXPECT_EQ(
+          std::memcmp(frame.hits.data(), expected.hits.data(), frame.hits.size() * sizeof(Hit)), 0);
+      // Places between pixels, and what lights see.
+      EXPECT_EQ(kept->shade(frame, camera, look, 4)->rgba,
+                fresh->shade(expected, camera, look, 4)->rgba);
+      if (step > 0) refined += statistics_of(*fresh->cells()).refined;
+    }
+    EXPECT_LT(statistics_of(*kept->cells()).refined, refined / 2);
+  }
+}
+
+TEST(Renderer, WithALeafSizeOfAutoAPictureOfAnotherSizeHasItsOwnCells) {
+  const Model model = model_of(kManyCuts);
+  RendererSettings settings;
+  settings.backend = Backend::kCpu;
+  settings.pixel_threshold = 1;
+  ViewOptions view = small_view();
+  Result<Renderer> kept = Renderer::make(model, settings), fresh = Renderer::make(model, settings);
+  ASSERT_TRUE(kept->prepare(kept->camera(view), Refine::kAll));
+  view.width = view.height = 400;
+  const Camera camera = kept->camera(view);
+  ASSERT_TRUE(kept->trace(camera));
+  ASSERT_TRUE(fresh->prepare(camera, Refine::kAll));
+  EXPECT_EQ(statistics_of(*kept->cells()).cells, statistics_of(*fresh->cells()).cells);
+}
+
+TEST(Renderer, ShadesAPictureAsItsOwnCameraSeesIt) {
+  const Model model = model_of(kManyCuts);
+  Result<Renderer> renderer = Renderer::make(model, paper_settings(Backend::kCpu));
+  ViewOptions view = small_view();
+  const Camera near = renderer->camera(view);
+  view.distance = 2000;
+  const Camera far = renderer->camera(view);
+  ASSERT_TRUE(renderer->prepare(near));
+  const Frame frame = *renderer->trace(near);
+  const Picture expected = *renderer->shade(frame, near, {}, 4);
+  ASSERT_TRUE(renderer->trace(far));
+  EXPECT_EQ(renderer->shade(frame, near, {}, 4)->rgba, expected.rgba);
 }
 
 TEST(Renderer, AnEmptyModelIsBackgroundWithEveryBackend) {

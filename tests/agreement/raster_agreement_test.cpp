@@ -300,7 +300,7 @@ TEST_F(RasterAgreement, InPaperModeOnlyIgnoredCellsDiffer) {
       SubdivideSettings paper = leaf_size(2);
       paper.split = SplitRule::kXyz, paper.leaf = LeafRule::kPrimitives;
       paper.ignore_small = true;
-      paper.is_small = [&](const Box& box) { return is_below_pixels(camera, box, threshold); };
+      paper.is_small = PixelThreshold(camera, threshold);
       RasterSubject subject(device, model, paper), other(unified, model, paper, true);
       const Frame seen = subject.tracer->render(camera, {});
       EXPECT_TRUE(same_bytes(seen, other.tracer->render(camera, {})));

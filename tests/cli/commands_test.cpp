@@ -235,6 +235,24 @@ TEST_F(Bench, WhatIgnoredCellsHideIsCountedAndNotWrong) {
   EXPECT_EQ(traced["wrong"], 0);
 }
 
+TEST_F(Bench, AnOrbitTellsWhatItsStepsRefine) {
+  good({"model", "cheese", "60", "-o", "cheese.csg"});
+  const Json orbit = Json::parse(good({"bench", "cheese.csg", "--repeat", "1", "--json", "--paper",
+                                       "--imgsize", "64,64", "--orbit", "6"})
+                                     .out)[0]["orbit"];
+  EXPECT_EQ(orbit["steps"], 6);
+  for (const char* list : {"step_ms", "of_it_cells_ms", "afresh_ms", "refined", "refined_afresh"})
+    EXPECT_EQ(orbit[list].size(), 6u) << list;
+  for (size_t i = 0; i < 6; ++i)
+    EXPECT_LT(10 * orbit["refined"][i].get<int>(), orbit["refined_afresh"][i].get<int>()) << i;
+  EXPECT_GT(orbit["most_refined_share"], 0);
+  EXPECT_GE(orbit["most_refined_share"], orbit["median_refined_share"]);
+  EXPECT_GT(orbit["refined_share_in_all"], orbit["most_refined_share"]);
+  const std::string table =
+      good({"bench", "part.csg", "--repeat", "1", "--imgsize", "16,16", "--orbit", "2"}).out;
+  EXPECT_NE(table.find("ms a degree, afresh"), std::string::npos) << table;
+}
+
 TEST_F(Bench, TheOracleCanBeMeasuredToo) {
   const Ended done = good({"bench", "part.csg", "--repeat", "1", "--json", "--backend", "oracle",
                            "--imgsize", "16,16"});

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "base/workers.h"
@@ -19,8 +20,8 @@ struct CellBatch {
   bool is_last = false;                ///< of a stream
 };
 
-/// The host's tree of the cells that were sent. Used by one thread at a time. Scene and tree must
-/// outlive it.
+/// The host's tree of the cells that were sent. Used by one thread at a time, while no threshold
+/// moves. Scene and tree must outlive it.
 class CellSupply {
  public:
   CellSupply(const Scene& scene, const CellTree& tree, bool doubles, int threads);
@@ -30,12 +31,19 @@ class CellSupply {
   uint32_t cell_count() const { return cell_count_; }
   /// Nothing of it has been looked at, and there is something to be refined.
   bool is_open() const;
+  /// To be called before the others when a threshold may have moved (subdivide/threshold.h). Cells
+  /// that have gone stay gone: those that are out of use are set aside, and found again when they
+  /// are wanted; what is new is open. So no cell goes twice, and the tree bounds how many do.
+  void follow();
 
-  /// All that the tile may see, or everything if there is none; in no order. Nothing has come
-  /// before.
+  /// All that the tile may see, or everything if there is none; in no order. Precondition of this
+  /// and of stream(): nothing but the root has a place in flat(), as at the beginning or where
+  /// is_open().
   Result<CellBatch> at_once(const Sight* sight);
-  /// What of these cells the tile may see.
-  Result<CellBatch> refined(const std::vector<OpenCellInSight>& open, const Sight& sight);
+  /// What of these cells the tile may see; it is added to the other cells that the tile may see,
+  /// where it belongs. Both are those of order_front_to_back().
+  Result<CellBatch> refined(const std::vector<OpenCellInSight>& open, const Sight& sight,
+                            std::vector<VisibleCell>& visible);
 
   /// What has been solved so far.
   using Solved = std::shared_ptr<const SolvedPixels>;
@@ -58,8 +66,17 @@ class CellSupply {
   /// A batch ends when it has taken so long, or with everything.
   Status deliver(const Sight* sight, double milliseconds, const std::function<Solved()>& solved,
                  const Take& take);
-  /// Flattens the jobs side by side, and puts what they give into its places.
-  Status run(const std::vector<Job>& jobs, const Wanted& wanted, CellBatch& batch);
+  /// A place, and the moves of the threshold that have been followed there.
+  struct Followed {
+    Place place;
+    uint64_t moves;
+  };
+  const Cell& cell_in(Place place) const;
+  void follow(Followed& at);
+  /// Flattens the jobs side by side, and puts what they give into its places. `ends`, if any, gets
+  /// how many visible cells the batch has after each.
+  Status run(const std::vector<Job>& jobs, const Wanted& wanted, CellBatch& batch,
+             std::vector<size_t>* ends = nullptr);
 
   const Scene& scene_;
   const CellTree tree_;
@@ -68,6 +85,13 @@ class CellSupply {
   PerWorker<RefinerLease> refiners_;
   FlatCells flat_;  ///< without the words that have gone
   uint32_t cell_count_ = 0, word_count_ = 0;
+  uint64_t moves_ = 0;  ///< of the threshold, that have been followed
+  struct Aside {
+    uint32_t what;
+    uint64_t moves;  ///< that have been followed there
+  };
+  /// What is out of use, by the leaf or the pair of cells that it was made of.
+  std::unordered_map<const void*, Aside> aside_;
 };
 
 }  // namespace whittle

@@ -61,8 +61,7 @@ class Flattener {
       if (link.kind() == CellKind::kEmpty || link.kind() == CellKind::kFull) continue;
       const BoxSight sight = wanted_.sight ? wanted_.sight->look(now.box) : BoxSight::kSome;
       if (sight == BoxSight::kNone || is_hidden(now.box, sight)) {
-        part_.at(now.place) = kOpenBit | uint32_t(part_.open.size());
-        part_.open.push_back(now.cell);
+        part_.at(now.place) = kOpenPlace;
         continue;
       }
       if (link.kind() == CellKind::kOpen) link = refiner_.refined(*now.cell);
@@ -70,7 +69,7 @@ class Flattener {
         const double split = now.cell->split;
         const int axis = link.axis();
         const auto node = uint32_t(part_.nodes.size());
-        part_.nodes.push_back({.split = split, .axis = uint8_t(axis)});
+        part_.nodes.push_back({.split = split, .cells = link.children(), .axis = uint8_t(axis)});
         part_.at(now.place) = node;
         const uint32_t first = wanted_.sight && wanted_.sight->starts_above(axis, split) ? 1 : 0;
         for (const uint32_t side : {1 - first, first}) {
@@ -141,6 +140,7 @@ class Flattener {
           part_.words.insert(part_.words.end(), {step.literal, step.on_true, step.on_false});
     }
     part_.cases.push_back(leaf_case(scene_, kind, leaf));
+    part_.leaves.push_back(&leaf);
     add_vector(part_.cells, box.lo, doubles_);
     add_vector(part_.cells, box.hi, doubles_);
     part_.cells.insert(part_.cells.end(),
@@ -223,12 +223,11 @@ Status flatten(const Scene& scene, const Cell& cell, const Box& box, const Wante
 }
 
 void append(FlatPart& part, Place place, uint32_t cells, uint32_t words, FlatCells& whole) {
-  const auto first_node = uint32_t(whole.nodes.size()), first_open = uint32_t(whole.open.size());
+  const auto first_node = uint32_t(whole.nodes.size());
   const uint32_t first_cell = cells + uint32_t(whole.cells.size() / kCellWords);
   const uint32_t first_word = words + uint32_t(whole.words.size());
   const auto moved = [&](uint32_t what) {
-    if (what == kNoChild) return what;
-    return what + (is_cell(what) ? first_cell : is_open(what) ? first_open : first_node);
+    return is_cell(what) ? what + first_cell : is_node(what) ? what + first_node : what;
   };
   for (size_t at = 0; at < part.cells.size(); at += kCellWords) {
     uint32_t* const rule = &part.cells[at + kRuleWord];
@@ -241,7 +240,7 @@ void append(FlatPart& part, Place place, uint32_t cells, uint32_t words, FlatCel
   whole.at(place) = moved(part.root);
   whole.nodes.insert(whole.nodes.end(), part.nodes.begin(), part.nodes.end());
   whole.cases.insert(whole.cases.end(), part.cases.begin(), part.cases.end());
-  whole.open.insert(whole.open.end(), part.open.begin(), part.open.end());
+  whole.leaves.insert(whole.leaves.end(), part.leaves.begin(), part.leaves.end());
   whole.cells.insert(whole.cells.end(), part.cells.begin(), part.cells.end());
   whole.words.insert(whole.words.end(), part.words.begin(), part.words.end());
 }

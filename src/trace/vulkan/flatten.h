@@ -22,24 +22,22 @@ inline constexpr uint32_t kMostNested = 32;
 /// Literals that it has room for in one cell.
 inline constexpr uint32_t kMostLiterals = 1024;
 
-/// What stands in a place of the host's tree: a node's number, or one of these with a number, or
-/// nothing.
-inline constexpr uint32_t kCellBit = 1u << 31;  ///< a cell on the device
-inline constexpr uint32_t kOpenBit = 1u << 30;  ///< what has not been looked at: open cells
-inline constexpr uint32_t kNoChild = UINT32_MAX;
+/// What stands in a place of the host's tree: a node's number, or a number with this bit, or one of
+/// the others.
+inline constexpr uint32_t kCellBit = 1u << 31;    ///< a cell on the device
+inline constexpr uint32_t kOpenPlace = 1u << 30;  ///< a cell that has not been looked at
+inline constexpr uint32_t kNoChild = UINT32_MAX;  ///< nothing
 constexpr bool is_cell(uint32_t what) {
   return what != kNoChild && (what & kCellBit) != 0;
 }
-constexpr bool is_open(uint32_t what) {
-  return (what & (kCellBit | kOpenBit)) == kOpenBit;
-}
 constexpr bool is_node(uint32_t what) {
-  return (what & (kCellBit | kOpenBit)) == 0;
+  return (what & (kCellBit | kOpenPlace)) == 0;
 }
 
 /// One split on the host's way through the cells, front to back.
 struct FlatNode {
   double split = 0;
+  const Cell* cells = nullptr;               ///< the two that stand for its children
   uint32_t child[2] = {kNoChild, kNoChild};  ///< what is below and above the split
   uint8_t axis = 0;
 };
@@ -71,8 +69,8 @@ struct FlatCells {
 
   /// What follows only the host has. Of each cell:
   std::vector<LeafCase> cases;
+  std::vector<const Leaf*> leaves;
   std::vector<FlatNode> nodes;
-  std::vector<const Cell*> open;
   uint32_t root = kNoChild;
 
   /// What stands there; may be changed.

@@ -23,8 +23,8 @@ void order_front_to_back(const FlatCells& flat, const Box& region, const Sight& 
       cells.push_back({cell, flat.cases[cell], seen == BoxSight::kWide});
       continue;
     }
-    if (is_open(now.what)) {
-      open.push_back({flat.open[now.what & ~kOpenBit], now.box, now.place});
+    if (now.what == kOpenPlace) {
+      open.push_back({now.box, now.place, cells.size()});
       continue;
     }
     const FlatNode& node = flat.nodes[now.what];

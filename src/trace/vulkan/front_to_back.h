@@ -9,9 +9,9 @@ namespace whittle {
 
 /// An open cell that may be seen: it must be refined before anything is drawn.
 struct OpenCellInSight {
-  const Cell* cell;
   Box box;
   Place place;
+  size_t rank;  ///< how many of the cells come before
 };
 
 /// No ray meets a later cell before an earlier one. Cells that the tile cannot see may be missing.

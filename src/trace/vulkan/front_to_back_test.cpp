@@ -10,9 +10,11 @@
 
 #include "lower/lower.h"
 #include "subdivide/subdivide.h"
+#include "subdivide/threshold.h"
 #include "support/agreement.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"
+#include "trace/pixel_threshold.h"
 #include "trace/vulkan/cell_stream.h"
 #include "trace/vulkan/view_data.h"
 
@@ -30,7 +32,7 @@ std::map<uint32_t, Box> boxes_of(const FlatCells& flat, const Box& region) {
   while (!open.empty()) {
     const Open now = open.back();
     open.pop_back();
-    if (now.at == kNoChild || is_open(now.at)) continue;
+    if (now.at == kNoChild || now.at == kOpenPlace) continue;
     if (is_cell(now.at)) {
       boxes[now.at & ~kCellBit] = now.box;
       continue;
@@ -134,6 +136,20 @@ TEST(FrontToBack, IsTheOrderOfEveryRayAndMissesNoCell) {
   EXPECT_GT(met, 10000);
 }
 
+bool same_cell(const VisibleCell& a, const VisibleCell& b) {
+  return a.cell == b.cell && a.leaf_case == b.leaf_case && a.is_wide == b.is_wide;
+}
+
+/// To order the cells once more gives the same, and no open cell.
+void expect_nothing_is_left(const CellSupply& supply, const Sight& sight,
+                            const std::vector<VisibleCell>& visible) {
+  std::vector<VisibleCell> again;
+  std::vector<OpenCellInSight> open;
+  order_front_to_back(supply.flat(), supply.region(), sight, again, open);
+  EXPECT_TRUE(open.empty());
+  EXPECT_TRUE(std::ranges::equal(visible, again, same_cell));
+}
+
 /// What a stream gives, all batches in a row; all pixels left of `solved_to` are said to be solved.
 std::vector<VisibleCell> stream_of(CellSupply& supply, const Sight& sight, const Camera& camera,
                                    int solved_to, int& batches) {
@@ -183,9 +199,8 @@ TEST(FrontToBack, AStreamHasTheSameOrderAndWhatIsSeenLaterIsStillThere) {
         std::vector<OpenCellInSight> open;
         const Sight from(subject.sight(other));
         order_front_to_back(supply.flat(), supply.region(), from, seen, open);
-        ASSERT_TRUE(supply.refined(open, from));
-        order_front_to_back(supply.flat(), supply.region(), from, seen, open);
-        EXPECT_TRUE(open.empty());
+        ASSERT_TRUE(supply.refined(open, from, seen));
+        expect_nothing_is_left(supply, from, seen);
         std::map<uint32_t, Box> now = boxes_of(supply.flat(), supply.region());
         for (const Box& leaf : leaves) {
           if (std::ranges::none_of(now, [&](const auto& b) { return b.second == leaf; }))
@@ -224,16 +239,66 @@ TEST(FrontToBack, AStreamFromItsOwnThreadIsTheSame) {
       is_last = batch->is_last;
     }
   }
-  const auto same = [](const VisibleCell& a, const VisibleCell& b) {
-    return a.cell == b.cell && a.leaf_case == b.leaf_case && a.is_wide == b.is_wide;
-  };
-  EXPECT_TRUE(std::ranges::equal(visible, whole, same));
+  EXPECT_TRUE(std::ranges::equal(visible, whole, same_cell));
 
   // Nobody need wait for its end.
   const CellTree other = open_cells(subject.scene, subject.settings);
   CellSupply abandoned(subject.scene, other, true, 2);
   CellStream stream(abandoned, sight, 0);
   EXPECT_TRUE(stream.next());
+}
+
+/// The boxes of what the supply gives for a picture, front to back, after it has refined what that
+/// needs.
+std::vector<Box> seen_by(CellSupply& supply, const Sight& sight) {
+  std::vector<VisibleCell> visible;
+  std::vector<OpenCellInSight> open;
+  supply.follow();
+  order_front_to_back(supply.flat(), supply.region(), sight, visible, open);
+  EXPECT_TRUE(supply.refined(open, sight, visible));
+  expect_nothing_is_left(supply, sight, visible);
+  const std::map<uint32_t, Box> all = boxes_of(supply.flat(), supply.region());
+  std::vector<Box> boxes;
+  for (const VisibleCell& cell : visible) boxes.push_back(all.at(cell.cell));
+  return boxes;
+}
+
+TEST(FrontToBack, AMovedThresholdLeavesTheCellsOfAFreshSupplyAndNoneGoesTwice) {
+  const Workers workers(2);
+  size_t changes = 0;
+  for (uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomModel subject(seed);
+    subject.settings.leaf_size = 1;
+    subject.settings.ignore_small = seed % 3 != 0;
+    std::vector<Camera> cameras = cameras_for(subject.model, 24, 16);
+    Camera far = cameras[0];
+    far.eye = far.eye - far.forward * 1e6;
+    cameras.insert(seed % 2 == 0 ? cameras.begin() : cameras.end(), far);
+    subject.settings.is_small = PixelThreshold(cameras[0], 1);
+    const CellTree tree = open_cells(subject.scene, subject.settings);
+    CellSupply supply(subject.scene, tree, true, 2);
+    std::vector<Box> before;
+    uint32_t sent = 0;
+    for (int round = 0; round < 3; ++round) {
+      for (const Camera& camera : cameras) {
+        // Moves between pictures change nothing.
+        for (size_t i = 0; i < (seed + size_t(round)) % 3; ++i)
+          move_threshold(tree, PixelThreshold(cameras[i], 1), workers);
+        move_threshold(tree, PixelThreshold(camera, 1), workers);
+        const std::vector<Box> seen = seen_by(supply, subject.sight(camera));
+        subject.settings.is_small = PixelThreshold(camera, 1);
+        const CellTree fresh = open_cells(subject.scene, subject.settings);
+        CellSupply other(subject.scene, fresh, true, 2);
+        EXPECT_EQ(seen, seen_by(other, subject.sight(camera)));
+        changes += seen != before;
+        before = seen;
+      }
+      if (round == 0) sent = supply.cell_count();
+      EXPECT_EQ(supply.cell_count(), sent) << "all that comes back has gone already";
+    }
+  }
+  EXPECT_GT(changes, 50u);
 }
 
 }  // namespace

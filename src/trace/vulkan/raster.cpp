@@ -51,6 +51,7 @@ class RasterTracerImpl final : public RasterTracer {
     stats_ = {};
     clock_ = {};
     drawer_.begin_picture();
+    supply_.follow();
     if (supply_.flat().root == kNoChild) return frame;
     const std::vector<PixelRect> tiles = tiles_of(pixels_covering(camera, world_region()));
     for (size_t i = 0; i < tiles.size() && status_; ++i) {
@@ -71,6 +72,7 @@ class RasterTracerImpl final : public RasterTracer {
   }
 
   void set_up(const Camera& camera) override {
+    supply_.follow();
     for (const PixelRect& tile : tiles_of(pixels_covering(camera, world_region()))) {
       if (!status_) return;
       RasterStats unused;
@@ -81,6 +83,7 @@ class RasterTracerImpl final : public RasterTracer {
   void probe(const Camera& camera, std::span<const PixelPosition> positions,
              std::span<Hit> hits) override {
     std::fill(hits.begin(), hits.end(), Hit{});
+    supply_.follow();
     if (supply_.flat().root == kNoChild || positions.empty()) return;
     for (const PixelRect& tile : tiles_of(pixels_of(positions))) {
       for (const ProbeLayer& layer : probe_layers(positions, tile)) {
@@ -135,8 +138,7 @@ class RasterTracerImpl final : public RasterTracer {
     const Stopwatch watch;
     order_front_to_back(supply_.flat(), supply_.region(), sight, visible_, open_);
     if (!open_.empty()) {
-      if (Status done = send(supply_.refined(open_, sight)); !done) return done;
-      order_front_to_back(supply_.flat(), supply_.region(), sight, visible_, open_);
+      if (Status done = send(supply_.refined(open_, sight, visible_)); !done) return done;
     }
     stats.order_ms += watch.milliseconds();
     return drawer_.draw(view, visible_, supply_.cell_count(), layer, stats, part);
@@ -144,8 +146,8 @@ class RasterTracerImpl final : public RasterTracer {
 
   /// The first picture: cells are refined while others are drawn.
   Status draw_stream(const Sight& sight, const ViewData& view, const std::function<void()>& show) {
+    size_t sent = supply_.cell_count();  // not to be asked while the stream runs
     CellStream stream(supply_, sight, device_->first_batch_ms());
-    size_t sent = 0;  // the supply is not to be asked while the stream runs
     DrawPart part{.is_first = true, .is_last = false, .wants_hits = bool(show)};
     while (!part.is_last) {
       // What it throws leaves cells behind that never come.
