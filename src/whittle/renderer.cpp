@@ -144,8 +144,9 @@ Status Renderer::State::make_tracer(const Camera& camera) {
       return is_below_pixels(camera, box, pixels);
     };
   }
-  cells = open_cells(scene, subdivision);
   const bool is_raster = settings.backend == Backend::kVulkanRaster;
+  if (is_raster) subdivision.margin = cell_margin(*device, scene);
+  cells = open_cells(scene, subdivision);
   if (refine == Refine::kAll)
     refine_all(*cells, workers);
   else if (!is_raster)
@@ -154,8 +155,11 @@ Status Renderer::State::make_tracer(const Camera& camera) {
   times.send = 0;
   if (is_raster) {
     const Stopwatch sending;
+    const MakeTracer second_look = [this] {
+      return make_cpu_tracer(scene, *cells, settings.threads);
+    };
     Result<std::unique_ptr<RasterTracer>> made =
-        make_raster_tracer(device, scene, *cells, settings.threads);
+        make_raster_tracer(device, scene, *cells, second_look, settings.threads);
     if (!made) return made.error();
     raster = made->get();
     tracer = *std::move(made);

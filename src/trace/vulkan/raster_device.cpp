@@ -53,11 +53,14 @@ Status RasterDevice::need(LeafCase shader) {
   return pipelines_.draw[shader] ? Status(Done{}) : add_draw(*gpu_, shader, pipelines_);
 }
 
-double RasterDevice::margin(const Camera& camera) const {
+double RasterDevice::margin(const Camera& camera, Vec3 size) const {
   // Two steps of the rasteriser's grid, and what rounding does to a corner before it gets there.
   double margin = 2 * std::ldexp(1.0, -int(gpu_->limits().subPixelPrecisionBits)) + 1.0 / 64;
-  // Floats place corners so badly.
-  if (!doubles_ && !camera.orthographic) margin += 1e-6 / camera.units_per_pixel();
+  // Floats place corners so badly, as a share of how far they are from the eye or from the middle of
+  // the region.
+  constexpr double kInFloats = 4e-6;
+  if (!doubles_)
+    margin += kInFloats / camera.units_per_pixel() * (camera.orthographic ? length(size) : 1);
   return margin;
 }
 

@@ -12,6 +12,7 @@
 #include "subdivide/subdivide.h"
 #include "support/agreement.h"
 #include "support/read_text.h"
+#include "trace/cpu/cpu.h"
 
 namespace whittle {
 namespace {
@@ -25,6 +26,9 @@ struct Subject {
     scene = *lower(model);
     cells = subdivide(scene, {});
   }
+  MakeTracer second_look(const CellTree& tree) const {
+    return [this, tree] { return make_cpu_tracer(scene, tree); };
+  }
   std::unique_ptr<RasterTracer> tracer() const { return tracer_of(cells); }
   std::unique_ptr<RasterTracer> tracer_of(const CellTree& tree) const {
     RasterSettings settings;
@@ -32,7 +36,7 @@ struct Subject {
     Result<std::shared_ptr<RasterDevice>> device = open_raster_device(settings);
     EXPECT_TRUE(device) << device.error().message;
     if (!device) return nullptr;
-    Result<std::unique_ptr<RasterTracer>> made = make_raster_tracer(*device, scene, tree);
+    Result<std::unique_ptr<RasterTracer>> made = make_raster_tracer(*device, scene, tree, second_look(tree));
     EXPECT_TRUE(made) << made.error().message;
     return made ? *std::move(made) : nullptr;
   }
@@ -195,7 +199,7 @@ TEST(Raster, OutOfMemoryIsAnError) {
       PFN_vkAllocateMemory(
           [](VkDevice, const VkMemoryAllocateInfo*, const VkAllocationCallbacks*,
              VkDeviceMemory*) -> VkResult { return VK_ERROR_OUT_OF_DEVICE_MEMORY; }));
-  const auto made = make_raster_tracer(*device, subject.scene, subject.cells);
+  const auto made = make_raster_tracer(*device, subject.scene, subject.cells, subject.second_look(subject.cells));
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().kind, ErrorKind::kMachine);
   EXPECT_NE(made.error().message.find(": out of memory"), std::string::npos);
