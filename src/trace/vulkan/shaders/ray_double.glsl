@@ -131,4 +131,6 @@ bool is_crowded(Next next) { return false; }
 
 bool is_side_in_doubt(Quadric f, Vec3 q, Next at) { return false; }
 
+Next refined(uint half_space, Quadric f, Next at) { return at; }
+
 bool are_facts_in_doubt(Quadric f, Vec3 q, Next at) { return false; }

@@ -5,6 +5,8 @@
 // What is seen and then not found again: one of the two is wrong.
 const uint kIfNotFoundAgain = kDoubt;
 
+#include "pairs.glsl"
+
 struct Ray {
   Vec3 origin;  // relative to the view's reference, and near to it
   Vec3 direction;
@@ -186,16 +188,43 @@ Real end_of(Next next) { return next.t + next.error; }
 // Whether another one may come before it. Written so that a NaN may.
 bool is_crowded(Next next) { return !(next.others > end_of(next)); }
 
-// Whether a crossing, q from the half-space's centre, may be on either side of it.
-bool is_side_in_doubt(Quadric f, Vec3 q, Next at) {
-  const Real place_error =
-      error_of_way(fabs_(at.t)) + K(3) * kRounding * norm1(q) + at.error;
+// The most that f's value, q from the half-space's centre, may be wrong if q is by so much.
+Real error_of_value(Quadric f, Vec3 q, Real place_error) {
   const Quadric largest = all_positive(f);
   const Vec3 farthest = abs(q) + place_error;
   const Vec3 slope = quadric_half_gradient(largest, farthest);
-  const Real error = K(2) * sqrt(dot3(slope, slope)) * place_error +
-                     K(16) * kRounding * quadric_value(largest, farthest);
-  return !(fabs_(quadric_value(f, q)) > error);
+  return K(2) * sqrt(dot3(slope, slope)) * place_error +
+         K(16) * kRounding * quadric_value(largest, farthest);
+}
+
+// Of a place of the ray, q from that centre, the same.
+Real error_of_place(Real t, Vec3 q) {
+  return error_of_way(fabs_(t)) + K(3) * kRounding * norm1(q);
+}
+
+// Whether a crossing, q from the half-space's centre, may be on either side of it.
+bool is_side_in_doubt(Quadric f, Vec3 q, Next at) {
+  return !(fabs_(quadric_value(f, q)) > error_of_value(f, q, error_of_place(at.t, q) + at.error));
+}
+
+// The crossing of that surface by Newton's rule, with f's value in pairs of floats: only what is
+// wrong with the ray itself is left. `f`: the half-space's.
+Next refined(uint half_space, Quadric f, Next at) {
+  const Vec3 place = ray.origin + ray.direction * at.t, center = half_space_center(half_space);
+  const Vec3 q = place - center, gradient = quadric_half_gradient(f, q);
+  const Real slope = dot3(gradient, ray.direction);
+  const Real bend = fabs_(dot3(quadric_apply(f, ray.direction), ray.direction));
+  const Vec3 largest = quadric_half_gradient(all_positive(f), abs(q));
+  const Real least = fabs_(slope) - bend * at.error - K(12) * kRounding * norm1(largest);
+  const Real steepest = sqrt(dot3(gradient, gradient)) + K(12) * kRounding * norm1(largest);
+  const Real error = K(2) * steepest * error_of_way(fabs_(at.t)) +
+                     kRounding * kRounding * K(64) * quadric_value(all_positive(f), abs(q)) +
+                     bend * at.error * at.error;
+  const Real value = value_by_pairs(half_space, place);
+  Next better = at;
+  better.t = at.t - value / (K(2) * slope);
+  better.error = error / (K(2) * least) + K(4) * kRounding * fabs_(at.t);
+  return least > K(0) && better.error < at.error ? better : at;
 }
 
 // Whether distance and normal of a crossing on that surface, q from its centre, may be too wrong to

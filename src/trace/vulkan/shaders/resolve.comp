@@ -113,6 +113,8 @@ uint owning_step(uint first, uint count, Vec3 point, Next where) {
   return found[0];
 }
 
+Vec3 point_of(Next at) { return ray.origin + ray.direction * at.t; }
+
 // The change that a pixel has seen.
 uint look(uint what, ivec2 pixel, out Change change) {
   if (what == 0) return kNo;
@@ -146,9 +148,7 @@ void main() {
   }
   for (uint w = 0; w < truth_words(); ++w) changed[w] ^= truth[w];
 
-  const Vec3 point = Vec3(ray.origin.x + ray.direction.x * change.at.t,
-                          ray.origin.y + ray.direction.y * change.at.t,
-                          ray.origin.z + ray.direction.z * change.at.t);
+  const Vec3 point = point_of(change.at);
   uint size;
   uint literal = decisive(change, size);
   uint id = word(leaf.first + 2 * literal + 1);
@@ -173,7 +173,8 @@ void main() {
   const bool complement = (literal_word(literal) & 1) != 0;
   const Vec3 center = half_space_center(half_space);
   const Quadric f = half_space_quadric(half_space, half_space_kind(half_space));
-  const Vec3 q = Vec3(point.x - center.x, point.y - center.y, point.z - center.z);
+  const Next hit = refined(half_space, f, change.at);
+  const Vec3 q = point_of(hit) - center;
   const Vec3 gradient = quadric_half_gradient(f, q);
   // The gradient points out of the half-space; that is out of the solid too if both were entered or
   // both left.
@@ -181,8 +182,8 @@ void main() {
   const Real size_of = sqrt(dot3(gradient, gradient));
   const Real by = select(size_of > K(0), K(1) / size_of, K(1));
   const vec3 normal = vec3(gradient * by) * (outward ? 1.0 : -1.0);
-  hits[at] = floatBitsToUint(float(change.at.t + ray.shift));
-  hits[at + 1] = is_doubtful || sign_in_doubt || are_facts_in_doubt(f, q, change.at) ? kDoubtfulId : id;
+  hits[at] = floatBitsToUint(float(hit.t + ray.shift));
+  hits[at + 1] = is_doubtful || sign_in_doubt || are_facts_in_doubt(f, q, hit) ? kDoubtfulId : id;
   hits[at + 2] = floatBitsToUint(normal.x);
   hits[at + 3] = floatBitsToUint(normal.y);
   hits[at + 4] = floatBitsToUint(normal.z);
