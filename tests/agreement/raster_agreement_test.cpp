@@ -2,6 +2,8 @@
 // from three views each (one inside the model), at several leaf sizes. Whichever shaders solve the
 // cells, and whether hidden cells are left out, the facts are the same to the bit. And Vulkan's
 // validation layer has nothing to complain about. Where there is no device, these tests fail.
+//
+// With the argument --floats the shaders compute in single precision, whatever the device can do.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,6 +21,12 @@
 
 namespace whittle {
 namespace {
+
+/// What main() was told.
+ShaderNumbers& numbers() {
+  static ShaderNumbers numbers = ShaderNumbers::kAuto;
+  return numbers;
+}
 
 SubdivideSettings leaf_size(uint32_t k) {
   SubdivideSettings settings;
@@ -54,6 +62,7 @@ class RasterAgreement : public testing::Test {
  protected:
   static std::shared_ptr<RasterDevice> open(ShaderCases shaders, bool culling) {
     RasterSettings settings;
+    settings.numbers = numbers();
     settings.shaders = shaders;
     settings.culling = culling;
     settings.first_batch_ms = 0;  // as many batches as there can be
@@ -351,3 +360,10 @@ TEST_F(RasterAgreement, RandomTrees) {
 
 }  // namespace
 }  // namespace whittle
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  if (argc > 1 && !std::strcmp(argv[1], "--floats"))
+    whittle::numbers() = whittle::ShaderNumbers::kFloat;
+  return RUN_ALL_TESTS();
+}
