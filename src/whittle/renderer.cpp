@@ -145,7 +145,7 @@ Status Renderer::State::make_tracer(const Camera& camera) {
     };
   }
   const bool is_raster = settings.backend == Backend::kVulkanRaster;
-  if (is_raster) subdivision.margin = cell_margin(*device, scene);
+  if (is_raster) subdivision.margin = cell_margin(*device);
   cells = open_cells(scene, subdivision);
   if (refine == Refine::kAll)
     refine_all(*cells, workers);

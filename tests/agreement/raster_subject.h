@@ -25,7 +25,7 @@ struct RasterSubject {
     WHITTLE_CHECK(lowered);
     scene = *std::move(lowered);
     SubdivideSettings rules = settings;
-    rules.margin = cell_margin(*device, scene);
+    rules.margin = cell_margin(*device);
     cells = eager ? subdivide(scene, rules) : open_cells(scene, rules);
     Result<std::unique_ptr<RasterTracer>> made =
         make_raster_tracer(std::move(device), scene, cells,

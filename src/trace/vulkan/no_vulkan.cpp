@@ -19,7 +19,7 @@ bool is_software(const RasterDevice&) {
   return true;
 }
 
-double cell_margin(const RasterDevice&, const Scene&) {
+double cell_margin(const RasterDevice&) {
   return kCellMargin;
 }
 

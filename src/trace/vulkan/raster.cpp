@@ -249,11 +249,10 @@ bool is_software(const RasterDevice& device) {
   return device.gpu().info().type == gpu::DeviceType::kSoftware;
 }
 
-double cell_margin(const RasterDevice& device, const Scene& scene) {
-  // Twice what shaders/ray_float.glsl needs about four edges of the model from its reference; an
-  // unbounded model's region is a thousand times as large as what is looked at.
-  if (device.doubles()) return kCellMargin;
-  return scene.bounded ? std::ldexp(1.0, -15) : std::ldexp(1.0, -23);
+double cell_margin(const RasterDevice& device) {
+  // Twice what shaders/ray_float.glsl needs four edges of the region from its reference, and half of
+  // the smallest cells.
+  return device.doubles() ? kCellMargin : std::ldexp(1.0, -15);
 }
 
 std::vector<std::string> validation_messages(const RasterDevice& device) {

@@ -43,7 +43,7 @@ std::string describe(const RasterDevice& device);
 bool is_software(const RasterDevice& device);
 /// How far beyond its cell a leaf must be right for the device, SubdivideSettings::margin: floats
 /// are less sure of where a cell ends. With less all is right, too, but nearly all is in doubt.
-double cell_margin(const RasterDevice& device, const Scene& scene);
+double cell_margin(const RasterDevice& device);
 /// All that the validation layer has complained about.
 std::vector<std::string> validation_messages(const RasterDevice& device);
 

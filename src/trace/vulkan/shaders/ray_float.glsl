@@ -30,11 +30,12 @@ Ray make_ray(vec2 position) {
 // Of a result, the most that one rounding changes, in whichever direction a device rounds.
 const Real kRounding = K(1) / K(1 << 23);
 
-// The ray at hand, whether it is too far from the reference to tell where it is, its way through the cell at hand and a little more of it, and that part which is
+// The ray at hand; how much larger than the cell at hand it takes it, as places along it are so
+// uncertain, and whether that is more than leaves are right for; its way through the cell at hand and a little more of it, and that part which is
 // surely in the cell.
 Ray ray;
 bool too_far;
-Real way_start, way_end, sure_start, sure_end;
+Real grown, way_start, way_end, sure_start, sure_end;
 
 Real norm1(Vec3 v) { return fabs_(v.x) + fabs_(v.y) + fabs_(v.z); }
 
@@ -45,7 +46,6 @@ Real error_of_way(Real farthest) {
 
 // The part of one axis.
 bool clip(Real lo, Real hi, Real origin, Real direction) {
-  const Real grown = view_grown();
   // In so short a way as there is a ray does not get anywhere along this axis.
   if (fabs_(direction) < K(1e-20)) {
     if (!(lo + grown <= origin && origin <= hi - grown)) sure_end = K(0) - kFar;
@@ -65,8 +65,8 @@ bool clip(Real lo, Real hi, Real origin, Real direction) {
 // none.
 bool enter_box(Box box) {
   const Vec3 corner = max(abs(box.lo), abs(box.hi));
-  const Real farthest = sqrt(dot3(corner, corner)) + norm1(ray.origin);
-  too_far = !(K(28) * kRounding * farthest <= view_grown());
+  grown = K(28) * kRounding * (sqrt(dot3(corner, corner)) + norm1(ray.origin));
+  too_far = !(grown <= view_grown());
   way_start = sure_start = view_start() - ray.shift;
   way_end = sure_end = kFar;
   return clip(box.lo.x, box.hi.x, ray.origin.x, ray.direction.x) &&
