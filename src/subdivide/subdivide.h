@@ -67,8 +67,8 @@ struct SubdivideSettings {
   /// parts, so that the cells do not depend on the order in which they are refined. If the formula
   /// as a whole takes more, that is what is taken (docs/decisions/0010-limits.md).
   size_t memory = size_t(1) << 30;
-  /// How far a cell is grown before anything is classified against it: its leaf is right there, too.
-  /// A share of the region's longest edge, at least kCellMargin.
+  /// How far a cell is grown before anything is classified against it: its leaf is right there,
+  /// too. A share of the region's longest edge, at least kCellMargin.
   double margin = kCellMargin;
   int threads = 0;  ///< 0: all
 };

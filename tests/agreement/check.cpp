@@ -29,8 +29,8 @@ struct Checked : AgreementReport {
   uint64_t in_doubt = 0;  ///< pixels that shaders in floats left to the second look
 };
 
-Checked check(const Device& device, const Model& model,
-                      std::span<const uint32_t> leaf_sizes, int width, int height) {
+Checked check(const Device& device, const Model& model, std::span<const uint32_t> leaf_sizes,
+              int width, int height) {
   const auto oracle = make_oracle_tracer(model);
   Checked sum;
   for (const uint32_t k : leaf_sizes) {
@@ -57,9 +57,10 @@ Checked check(const Device& device, const Model& model,
 bool report(const std::string& name, const Checked& r, bool always) {
   const bool bad = r.unexplained > 0 || r.ambiguous_unmatched > 0;
   if (bad || always)
-    std::printf("%s: %d pixels, %d hits, %d ambiguous, %d unexplained, %d unmatched, %llu in doubt\n",
-                name.c_str(), r.pixels, r.hits, r.ambiguous, r.unexplained, r.ambiguous_unmatched,
-                static_cast<unsigned long long>(r.in_doubt));
+    std::printf(
+        "%s: %d pixels, %d hits, %d ambiguous, %d unexplained, %d unmatched, %llu in doubt\n",
+        name.c_str(), r.pixels, r.hits, r.ambiguous, r.unexplained, r.ambiguous_unmatched,
+        static_cast<unsigned long long>(r.in_doubt));
   if (bad) std::printf("  %s\n", r.first_difference.c_str());
   return !bad;
 }

@@ -54,8 +54,8 @@ std::vector<SubdivideSettings> all_leaf_sizes() {
   return rules;
 }
 
-// On an edge of the model, where cells meet, and looking along one of its faces: some rays run in the
-// face to the last digit, and the first cell on their way ends where it begins.
+// On an edge of the model, where cells meet, and looking along one of its faces: some rays run in
+// the face to the last digit, and the first cell on their way ends where it begins.
 TEST(CpuAgreement, AnEyeOnAnEdgeThatLooksAlongAFace) {
   const Result<Read> read = read_file(std::string(WHITTLE_EXAMPLES) + "/cheese100.csg");
   ASSERT_TRUE(read);

@@ -27,9 +27,8 @@ struct RasterSubject {
     SubdivideSettings rules = settings;
     rules.margin = cell_margin(*device);
     cells = eager ? subdivide(scene, rules) : open_cells(scene, rules);
-    Result<std::unique_ptr<RasterTracer>> made =
-        make_raster_tracer(std::move(device), scene, cells,
-                           [this] { return make_cpu_tracer(scene, cells); });
+    Result<std::unique_ptr<RasterTracer>> made = make_raster_tracer(
+        std::move(device), scene, cells, [this] { return make_cpu_tracer(scene, cells); });
     if (!made) std::fprintf(stderr, "%s\n", made.error().message.c_str());
     WHITTLE_CHECK(made);
     tracer = *std::move(made);

@@ -153,8 +153,7 @@ inline void LeavesInLanes::forget_at_eye() {
   for (size_t i = 0; i < visitors.count; ++i) {
     const size_t packet = visitors.packet[i];
     const Real end = hn::Load(D(), visitors.t1 + i * Tile::lanes());
-    tile_.known[packet] &=
-        uint8_t(~(bits(hn::Le(end, tile_.at_eye(packet))) & visitors.lanes[i]));
+    tile_.known[packet] &= uint8_t(~(bits(hn::Le(end, tile_.at_eye(packet))) & visitors.lanes[i]));
   }
 }
 

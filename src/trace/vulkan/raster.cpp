@@ -165,9 +165,8 @@ class RasterTracerImpl final : public RasterTracer {
     // A place may be anywhere in its pixel.
     const double margin = device_->margin(camera, supply_.region().size()) + (layer ? 1 : 0);
     const Sight sight(camera, local_eye(scene_, camera), scene_.origin, tile, margin);
-    const ViewData view =
-        make_view_data(scene_, cell_margin_, camera, tile, device_->doubles(), layer != nullptr,
-                       margin);
+    const ViewData view = make_view_data(scene_, cell_margin_, camera, tile, device_->doubles(),
+                                         layer != nullptr, margin);
     if (supply_.is_open()) {
       if (!layer) return draw_stream(sight, view, show);
       if (Status done = send(supply_.at_once(&sight)); !done) return done;
@@ -250,8 +249,8 @@ bool is_software(const RasterDevice& device) {
 }
 
 double cell_margin(const RasterDevice& device) {
-  // Twice what shaders/ray_float.glsl needs four edges of the region from its reference, and half of
-  // the smallest cells.
+  // Twice what shaders/ray_float.glsl needs four edges of the region from its reference, and half
+  // of the smallest cells.
   return device.doubles() ? kCellMargin : std::ldexp(1.0, -15);
 }
 

@@ -56,8 +56,8 @@ Status RasterDevice::need(LeafCase shader) {
 double RasterDevice::margin(const Camera& camera, Vec3 size) const {
   // Two steps of the rasteriser's grid, and what rounding does to a corner before it gets there.
   double margin = 2 * std::ldexp(1.0, -int(gpu_->limits().subPixelPrecisionBits)) + 1.0 / 64;
-  // Floats place corners so badly, as a share of how far they are from the eye or from the middle of
-  // the region.
+  // Floats place corners so badly, as a share of how far they are from the eye or from the middle
+  // of the region.
   constexpr double kInFloats = 4e-6;
   if (!doubles_)
     margin += kInFloats / camera.units_per_pixel() * (camera.orthographic ? length(size) : 1);

@@ -22,8 +22,8 @@ class RasterDevice {
   bool doubles() const { return doubles_; }  ///< shaders compute in double precision
   bool storage() const { return storage_; }  ///< and read storage buffers, not texel buffers
   uint32_t tile_side() const { return tile_side_; }  ///< pixels that it draws at a time, at most
-  /// Pixels that a box must be grown by on the screen, so that no rounding loses a pixel. `size`: of
-  /// the region.
+  /// Pixels that a box must be grown by on the screen, so that no rounding loses a pixel. `size`:
+  /// of the region.
   double margin(const Camera& camera, Vec3 size) const;
 
  private:

@@ -24,8 +24,8 @@ static_assert(sizeof(ViewData) == 224);
 /// The camera's eye in the scene's local coordinates.
 Vec3 local_eye(const Scene& scene, const Camera& camera);
 
-/// `cell_margin`: leaves are right so far beyond their cells. `margin`: pixels that boxes are grown by on the screen. `probes`: every pixel of the tile looks
-/// at a place of its own.
+/// `cell_margin`: leaves are right so far beyond their cells. `margin`: pixels that boxes are grown
+/// by on the screen. `probes`: every pixel of the tile looks at a place of its own.
 ViewData make_view_data(const Scene& scene, double cell_margin, const Camera& camera,
                         const PixelRect& tile, bool doubles, bool probes, double margin);
 
