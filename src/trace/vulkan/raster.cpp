@@ -163,8 +163,9 @@ class RasterTracerImpl final : public RasterTracer {
                     RasterStats& stats, const std::function<void()>& show,
                     const DrawPart& part = {}) {
     // A place may be anywhere in its pixel.
-    const double margin = device_->margin(camera, supply_.region().size()) + (layer ? 1 : 0);
-    const Sight sight(camera, local_eye(scene_, camera), scene_.origin, tile, margin);
+    const Vec3 eye = local_eye(scene_, camera);
+    const double margin = device_->margin(camera, supply_.region(), eye) + (layer ? 1 : 0);
+    const Sight sight(camera, eye, scene_.origin, tile, margin);
     const ViewData view = make_view_data(scene_, cell_margin_, camera, tile, device_->doubles(),
                                          layer != nullptr, margin);
     if (supply_.is_open()) {

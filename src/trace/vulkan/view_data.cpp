@@ -16,17 +16,15 @@ constexpr double kOnSurface = 2e-14, kAtEye = 1e-13, kAhead = 1e-9;
 /// Further than any change.
 constexpr double kEverywhere = 1e37;
 
-/// So far ahead of the eye lies what places are relative to in floats: as near to the region as can
-/// be said of all rays of a camera.
-double reference_ahead(const Scene& scene, const Camera& camera, Vec3 eye) {
-  if (camera.orthographic) return dot(scene.region.center() - eye, camera.forward);
-  return length(max(max(scene.region.lo - eye, eye - scene.region.hi), Vec3{}));
-}
-
 }  // namespace
 
 Vec3 local_eye(const Scene& scene, const Camera& camera) {
   return camera.eye - scene.origin;
+}
+
+double reference_ahead(const Box& region, const Camera& camera, Vec3 eye) {
+  if (camera.orthographic) return dot(region.center() - eye, camera.forward);
+  return length(max(max(region.lo - eye, eye - region.hi), Vec3{}));
 }
 
 ViewData make_view_data(const Scene& scene, double cell_margin, const Camera& camera,
@@ -34,7 +32,7 @@ ViewData make_view_data(const Scene& scene, double cell_margin, const Camera& ca
   ViewData data;
   const double edge = max_component(scene.region.size());
   const Vec3 eye = local_eye(scene, camera);
-  const double ahead = doubles ? 0 : reference_ahead(scene, camera, eye);
+  const double ahead = doubles ? 0 : reference_ahead(scene.region, camera, eye);
   // In the order of shaders/view.glsl.
   size_t count = 0;
   const auto add = [&](std::initializer_list<double> numbers) {
@@ -42,7 +40,7 @@ ViewData make_view_data(const Scene& scene, double cell_margin, const Camera& ca
       for (const uint32_t word : words_of(number, doubles)) data.numbers[count++] = word;
   };
   const auto add_vector = [&](Vec3 v) { add({v.x, v.y, v.z}); };
-  add_vector(doubles ? eye : camera.forward * -ahead);
+  add_vector(doubles ? eye : Vec3{});
   add_vector(camera.right);
   add_vector(camera.up);
   add_vector(camera.forward);

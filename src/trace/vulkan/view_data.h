@@ -24,6 +24,10 @@ static_assert(sizeof(ViewData) == 224);
 /// The camera's eye in the scene's local coordinates.
 Vec3 local_eye(const Scene& scene, const Camera& camera);
 
+/// So far ahead of the eye, which is in local coordinates, lies what places are relative to in
+/// floats: near to the region, and no farther from the eye than that.
+double reference_ahead(const Box& region, const Camera& camera, Vec3 eye);
+
 /// `cell_margin`: leaves are right so far beyond their cells. `margin`: pixels that boxes are grown
 /// by on the screen. `probes`: every pixel of the tile looks at a place of its own.
 ViewData make_view_data(const Scene& scene, double cell_margin, const Camera& camera,

@@ -22,8 +22,8 @@ Ray make_ray(vec2 position) {
   const Vec3 beside = picture_point(Vec3(0), view_right(), view_up(), x, y);
   const Vec3 point = picture_point(view_forward(), view_right(), view_up(), x, y);
   ray.direction = mix(unit3(point), view_forward(), bvec3(orthographic));
-  ray.origin = beside * mix(view_ahead_of_eye(), K(1), orthographic);
-  ray.shift = view_ahead_of_eye() * mix(sqrt(dot3(point, point)), K(1), orthographic);
+  ray.origin = beside * mix(view_axis_ahead(), K(1), orthographic);
+  ray.shift = view_axis_ahead() * mix(sqrt(dot3(point, point)), K(1), orthographic);
   return ray;
 }
 
@@ -105,18 +105,18 @@ OnRay on_ray(uint half_space) {
   OnRay r;
   if (kind == kPlane) {
     r.f = plane_along_ray(f.b, q, ray.direction);
-    r.error = place_error + K(12) * kRounding * dot3(abs(f.b), farthest);
+    r.error = place_error + K(16) * kRounding * dot3(abs(f.b), farthest);
   } else if (kind == kSphere) {
     r.f = diagonal_along_ray(f.diag, f.c, q, ray.direction);
     const Real slope = f.diag.x * sqrt(dot3(farthest, farthest));
     r.error = K(2) * slope * place_error +
-              K(10) * kRounding * (f.diag.x * dot3(farthest, farthest) + fabs_(f.c));
+              K(14) * kRounding * (f.diag.x * dot3(farthest, farthest) + fabs_(f.c));
   } else {
     r.f = quadric_along_ray(f, q, ray.direction);
     const Quadric largest = all_positive(f);
     const Vec3 slope = quadric_half_gradient(largest, farthest);
     r.error = K(2) * sqrt(dot3(slope, slope)) * place_error +
-              K(16) * kRounding * quadric_value(largest, farthest);
+              K(20) * kRounding * quadric_value(largest, farthest);
   }
   r.f.about = middle;
   return r;
@@ -194,7 +194,7 @@ Real error_of_value(Quadric f, Vec3 q, Real place_error) {
   const Vec3 farthest = abs(q) + place_error;
   const Vec3 slope = quadric_half_gradient(largest, farthest);
   return K(2) * sqrt(dot3(slope, slope)) * place_error +
-         K(16) * kRounding * quadric_value(largest, farthest);
+         K(20) * kRounding * quadric_value(largest, farthest);
 }
 
 // Of a place of the ray, q from that centre, the same.

@@ -19,7 +19,6 @@ uvec2 view_words(int i) {
 Real view_number(int i) { return to_real(view_words(i)); }
 Vec3 view_vector(int i) { return Vec3(view_number(i), view_number(i + 1), view_number(i + 2)); }
 
-Vec3 view_eye() { return view_vector(0); }  // a place as all others
 Vec3 view_right() { return view_vector(3); }
 Vec3 view_up() { return view_vector(6); }
 Vec3 view_forward() { return view_vector(9); }
@@ -27,7 +26,12 @@ Real view_scale() { return view_number(12); }
 Real view_half_width() { return view_number(13); }
 Real view_half_height() { return view_number(14); }
 Real view_start() { return view_number(15); }       // t where rays start
+// A place on the camera's axis, from which others are seen without loss, and from the eye to it.
+Vec3 view_axis() { return view_vector(0); }
 #if WHITTLE_DOUBLE
+Vec3 view_eye() { return view_axis(); }
+Real view_axis_ahead() { return K(0); }
+Vec3 view_to_axis() { return Vec3(0); }
 Real view_at_eye() { return view_number(16); }      // so near is at the eye
 Real view_on_surface() { return view_number(17); }  // and so near on a surface
 Real view_ahead() { return view_number(18); }       // and so far ahead it looks where it goes
@@ -35,7 +39,8 @@ Real view_together() { return view_number(19); }    // crossings closer than thi
 // Places are in the scene's local coordinates.
 Vec3 place(uvec2 x, uvec2 y, uvec2 z) { return Vec3(to_real(x), to_real(y), to_real(z)); }
 #else
-Real view_ahead_of_eye() { return view_number(16); }  // there is the reference
+Real view_axis_ahead() { return view_number(16); }    // so far ahead of the eye is the reference
+Vec3 view_to_axis() { return view_forward() * view_axis_ahead(); }
 Real view_grown() { return view_number(17); }         // leaves are right so far beyond their cells
 Real view_beyond() { return view_number(18); }        // so far beyond the cells changes count
 // Places are relative to the view's reference: what is near to it keeps its digits.
