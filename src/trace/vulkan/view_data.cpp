@@ -10,7 +10,7 @@ namespace {
 
 /// An eye this close to a surface stands on it, this close to the eye a ray still does, and this
 /// far ahead it looks where it goes; shares of the region's longest edge, above what rounding does.
-/// For doubles: with floats such places are in doubt.
+/// With floats such places are in doubt.
 constexpr double kOnSurface = 2e-14, kAtEye = 1e-13, kAhead = 1e-9;
 
 /// Further than any change.
@@ -50,7 +50,7 @@ ViewData make_view_data(const Scene& scene, double cell_margin, const Camera& ca
     add({kAtEye * edge, kOnSurface * edge, kAhead * edge,
          together({scene.region.lo + scene.origin, scene.region.hi + scene.origin})});
   } else {
-    add({ahead, 0.5 * cell_margin, scene.bounded ? kEverywhere : 0});
+    add({ahead, 0.5 * cell_margin, scene.bounded ? kEverywhere : 0, 4 * kOnSurface * edge});
     add_vector(eye + camera.forward * ahead);
   }
   data.tile_origin = {tile.x0, tile.y0};

@@ -59,7 +59,7 @@ Real value_by_pairs(uint half_space, Vec3 at) {
   }
   Pair q[3];
   for (int i = 0; i < 3; ++i)
-    q[i] = add(add(Pair(at[i], 0), pair_of(view_words(19 + i))), K(-1) * pair_of(center[i]));
+    q[i] = add(add(Pair(at[i], 0), pair_of(view_words(20 + i))), K(-1) * pair_of(center[i]));
   Pair value = pair_of(constant);
   for (int i = 0; i < 3; ++i) {
     // Of A q + 2 b one number, off standing across from its axis.

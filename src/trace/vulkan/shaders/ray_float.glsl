@@ -39,9 +39,10 @@ Real grown, way_start, way_end, sure_start, sure_end;
 
 Real norm1(Vec3 v) { return fabs_(v.x) + fabs_(v.y) + fabs_(v.z); }
 
-// How far from where it should be the ray may be, no farther than that from its origin.
+// How far from where it should be the ray may be, no farther than that from its origin. Where an eye
+// stands on a surface, doubles do not tell by f's sign where it is: that much is in doubt at least.
 Real error_of_way(Real farthest) {
-  return K(14) * kRounding * (farthest + norm1(ray.origin));
+  return K(14) * kRounding * (farthest + norm1(ray.origin)) + view_at_surface();
 }
 
 // The part of one axis.
@@ -96,9 +97,9 @@ OnRay on_ray(uint half_space) {
   const Real middle = K(0.5) * (way_start + way_end), half_way = way_end - middle;
   const Vec3 center = half_space_center(half_space);
   const Vec3 q = (ray.origin + ray.direction * middle) - center;
-  const uint kind = kSurfaces == kPlanes ? kPlane : half_space_kind(half_space);
-  const Quadric f = half_space_quadric(
-      half_space, kSurfaces == kPlanesAndSpheres && kind != kPlane ? kSphere : kind);
+  uint kind = kSurfaces == kPlanes ? kPlane : half_space_kind(half_space);
+  if (kSurfaces == kPlanesAndSpheres && kind != kPlane) kind = kSphere;
+  const Quadric f = half_space_quadric(half_space, kind);
   const Vec3 farthest = abs(q) + abs(ray.direction) * half_way;
   const Real place_error = error_of_way(pmax(fabs_(way_start), fabs_(way_end))) +
                            K(3) * kRounding * (norm1(q) + half_way);
@@ -106,7 +107,7 @@ OnRay on_ray(uint half_space) {
   if (kind == kPlane) {
     r.f = plane_along_ray(f.b, q, ray.direction);
     r.error = place_error + K(16) * kRounding * dot3(abs(f.b), farthest);
-  } else if (kind == kSphere) {
+  } else if (kSurfaces == kPlanesAndSpheres || kind == kSphere) {
     r.f = diagonal_along_ray(f.diag, f.c, q, ray.direction);
     const Real slope = f.diag.x * sqrt(dot3(farthest, farthest));
     r.error = K(2) * slope * place_error +
@@ -221,10 +222,13 @@ Next refined(uint half_space, Quadric f, Next at) {
                      kRounding * kRounding * K(64) * quadric_value(all_positive(f), abs(q)) +
                      bend * at.error * at.error;
   const Real value = value_by_pairs(half_space, place);
+  // A driver that does not keep to the order of sums loses what pairs have gained.
+  const bool is_plausible = fabs_(value - quadric_value(f, q)) <=
+                            error_of_value(f, q, error_of_place(at.t, q));
   Next better = at;
   better.t = at.t - value / (K(2) * slope);
   better.error = error / (K(2) * least) + K(4) * kRounding * fabs_(at.t);
-  return least > K(0) && better.error < at.error ? better : at;
+  return is_plausible && least > K(0) && better.error < at.error ? better : at;
 }
 
 // Whether distance and normal of a crossing on that surface, q from its centre, may be too wrong to
@@ -235,10 +239,12 @@ const Real kMostAlong = K(1) / K(1 << 17), kMostOfPixel = K(1) / K(1 << 11);
 
 bool are_facts_in_doubt(Quadric f, Vec3 q, Next at) {
   const Vec3 gradient = quadric_half_gradient(f, q);
-  const Real size = sqrt(dot3(gradient, gradient)), distance = fabs_(at.t + ray.shift);
+  const bool orthographic = view.orthographic != 0;
+  const Real ahead = at.t + ray.shift, beside = mix(K(0), dot3(ray.origin, ray.origin), orthographic);
+  const Real size = sqrt(dot3(gradient, gradient)), distance = sqrt(ahead * ahead + beside);
   const Real along = at.error + K(12) * kRounding * distance;
   const Real across = along * fabs_(dot3(gradient, ray.direction)) / size;
-  const Real pixel = view_scale() * mix(distance, K(1), view.orthographic != 0);
+  const Real pixel = view_scale() * mix(distance, K(1), orthographic);
   const Quadric largest = all_positive(f);
   const Vec3 turn = quadric_apply(largest, Vec3(at.error));
   const Vec3 slope = quadric_half_gradient(largest, abs(q));

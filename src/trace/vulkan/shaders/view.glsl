@@ -43,9 +43,10 @@ Real view_axis_ahead() { return view_number(16); }    // so far ahead of the eye
 Vec3 view_to_axis() { return view_forward() * view_axis_ahead(); }
 Real view_grown() { return view_number(17); }         // leaves are right so far beyond their cells
 Real view_beyond() { return view_number(18); }        // so far beyond the cells changes count
+Real view_at_surface() { return view_number(19); }    // so near an eye stands on a surface
 // Places are relative to the view's reference: what is near to it keeps its digits.
 Real from_reference(uvec2 words, int axis) {
-  const uvec2 reference = view_words(19 + axis);
+  const uvec2 reference = view_words(20 + axis);
   return (to_real(words) - to_real(reference)) + (rest_of(words) - rest_of(reference));
 }
 Vec3 place(uvec2 x, uvec2 y, uvec2 z) {
