@@ -66,7 +66,7 @@ bool clip(Real lo, Real hi, Real origin, Real direction) {
 // none.
 bool enter_box(Box box) {
   const Vec3 corner = max(abs(box.lo), abs(box.hi));
-  grown = K(28) * kRounding * (sqrt(dot3(corner, corner)) + norm1(ray.origin));
+  grown = K(40) * kRounding * (sqrt(dot3(corner, corner)) + norm1(ray.origin));
   too_far = !(grown <= view_grown());
   way_start = sure_start = view_start() - ray.shift;
   way_end = sure_end = kFar;
