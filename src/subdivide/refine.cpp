@@ -260,8 +260,8 @@ std::optional<CellLink> Refiner::split_wide(const Cell& cell, const OpenCell& pa
   const size_t wanted = parent.token_count / kWantedOperands;
   const int splits = std::min(int(std::bit_width(wanted)), kMostSplitsAtOnce);
   const SplitGrid grid = make_grid(parent.box, splits, settings_.split, parent.depth);
-  const std::vector<Formula> dealt =
-      deal_operands(scene_, parent.tokens(), grid, region_edge_ * settings_.margin, loop_over(helpers));
+  const std::vector<Formula> dealt = deal_operands(
+      scene_, parent.tokens(), grid, region_edge_ * settings_.margin, loop_over(helpers));
   if (dealt.empty()) return std::nullopt;
   return open_parts(cell, parent, grid, {dealt.begin(), dealt.end()}, helpers);
 }

@@ -4,7 +4,8 @@
 // numbers of half-spaces, whose parameters are uploaded once; boxes are drawn by few indirect
 // calls; the depth of a fragment is its cell's rank from front to back, so cells in front hide
 // those behind before a fragment runs (docs/decisions/0020-depth-is-rank.md); fragments only say
-// which cell is seen, and the facts are made once a pixel. How it works: docs/vulkan.md.
+// which cell is seen, and the facts are made once a pixel; with floats they prove it, or say that
+// they cannot (docs/decisions/0021-double-in-shaders.md). How it works: docs/vulkan.md.
 #pragma once
 
 #include <functional>

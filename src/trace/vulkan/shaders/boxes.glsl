@@ -13,10 +13,12 @@ Box grown_box(uint cell) {
   return box;
 }
 
-// Where a point seen from there is, in pixels from the tile's corner. It lies well ahead of the eye.
+// Where a point seen from there is, in pixels from the tile's corner. It lies well ahead of the
+// eye.
 vec2 place_in_tile(Vec3 p) {
   const bool orthographic = view.orthographic != 0;
-  const Real scale = view_scale() * mix(dot3(p, view_forward()) + view_axis_ahead(), K(1), orthographic);
+  const Real ahead = dot3(p, view_forward()) + view_axis_ahead();
+  const Real scale = view_scale() * mix(ahead, K(1), orthographic);
   return vec2(view_half_width() + dot3(p, view_right()) / scale - Real(view.tile_origin.x),
               view_half_height() - dot3(p, view_up()) / scale - Real(view.tile_origin.y));
 }

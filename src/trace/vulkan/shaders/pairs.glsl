@@ -1,6 +1,6 @@
 // Numbers as sums of two floats, the second of which is what the first has lost: some 46 bits.
-// After T. J. Dekker, "A floating-point technique for extending the available precision", Numerische
-// Mathematik 18 (1971), and D. E. Knuth, The Art of Computer Programming 2, 4.2.2.
+// After T. J. Dekker, "A floating-point technique for extending the available precision",
+// Numerische Mathematik 18 (1971), and D. E. Knuth, The Art of Computer Programming 2, 4.2.2.
 
 #define Pair vec2
 

@@ -30,17 +30,16 @@ Ray make_ray(vec2 position) {
 // Of a result, the most that one rounding changes, in whichever direction a device rounds.
 const Real kRounding = K(1) / K(1 << 23);
 
-// The ray at hand; how much larger than the cell at hand it takes it, as places along it are so
-// uncertain, and whether that is more than leaves are right for; its way through the cell at hand and a little more of it, and that part which is
-// surely in the cell.
+// The ray at hand; its way through the cell at hand, which it takes `grown` larger, as places along
+// it are so uncertain; and that part of it which is surely in the cell.
 Ray ray;
-bool too_far;
-Real grown, way_start, way_end, sure_start, sure_end;
+Real way_start, way_end, grown, sure_start, sure_end;
+bool too_far;  // leaves are not right so far beyond their cells
 
 Real norm1(Vec3 v) { return fabs_(v.x) + fabs_(v.y) + fabs_(v.z); }
 
-// How far from where it should be the ray may be, no farther than that from its origin. Where an eye
-// stands on a surface, doubles do not tell by f's sign where it is: that much is in doubt at least.
+// How far from where it should be the ray may be, no farther than that from its origin. So near to
+// a surface that an eye stands on it, doubles do not go by f's sign: that is in doubt, too.
 Real error_of_way(Real farthest) {
   return K(14) * kRounding * (farthest + norm1(ray.origin)) + view_at_surface();
 }
@@ -62,8 +61,7 @@ bool clip(Real lo, Real hi, Real origin, Real direction) {
   return true;
 }
 
-// The way of the ray through a box that is a little larger, from its start on. False if there is
-// none.
+// The way of the ray through a box, from its start on. False if there surely is none.
 bool enter_box(Box box) {
   const Vec3 corner = max(abs(box.lo), abs(box.hi));
   grown = K(40) * kRounding * (sqrt(dot3(corner, corner)) + norm1(ray.origin));
@@ -75,7 +73,7 @@ bool enter_box(Box box) {
          clip(box.lo.z, box.hi.z, ray.origin.z, ray.direction.z) && way_start <= way_end;
 }
 
-// Whether a cell that it meets may be taken for one that it does not meet.
+// Then a cell that the ray meets may be taken for one that it does not meet.
 bool is_too_far() { return too_far; }
 
 // Whether the ray surely passes the cell, so that what it meets there is not behind something in a
@@ -234,14 +232,15 @@ Next refined(uint half_space, Quadric f, Next at) {
 // Whether distance and normal of a crossing on that surface, q from its centre, may be too wrong to
 // be told. Across the surface and as a sine.
 const Real kMostAcross = K(1) / K(1 << 18), kMostTurned = K(1) / K(1 << 11);
-// Along the ray: a share of the distance, or if the surface is aslant, across it a share of a pixel.
+// Along the ray: a share of the distance, or if the surface is aslant, across it one of a pixel.
 const Real kMostAlong = K(1) / K(1 << 17), kMostOfPixel = K(1) / K(1 << 11);
 
 bool are_facts_in_doubt(Quadric f, Vec3 q, Next at) {
   const Vec3 gradient = quadric_half_gradient(f, q);
   const bool orthographic = view.orthographic != 0;
-  const Real ahead = at.t + ray.shift, beside = mix(K(0), dot3(ray.origin, ray.origin), orthographic);
-  const Real size = sqrt(dot3(gradient, gradient)), distance = sqrt(ahead * ahead + beside);
+  const Real beside = mix(K(0), dot3(ray.origin, ray.origin), orthographic);
+  const Real ahead = at.t + ray.shift, distance = sqrt(ahead * ahead + beside);
+  const Real size = sqrt(dot3(gradient, gradient));
   const Real along = at.error + K(12) * kRounding * distance;
   const Real across = along * fabs_(dot3(gradient, ray.direction)) / size;
   const Real pixel = view_scale() * mix(distance, K(1), orthographic);

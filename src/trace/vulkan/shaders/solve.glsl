@@ -21,8 +21,8 @@ Leaf leaf;
 const uint kMostLiterals = 1024;
 uint truth[kMostLiterals / 32];
 
-// The crossings of literals, where they are few: 2 i and 2 i + 1 are those of literal i, kNever where
-// there is none. In larger leaves they are computed again whenever they are needed.
+// The crossings of literals, where they are few: 2 i and 2 i + 1 are those of literal i, kNever
+// where there is none. In larger leaves they are computed again whenever they are needed.
 const uint kKept = 16;
 Crossing crossing[kKept * 2];
 uint true_at_start;

@@ -14,11 +14,11 @@ layout(location = 0) out uint seen;
 
 // The crossings of one literal along the way.
 struct Literal {
-  bool is_true;     // at its start
-  bool changes;     // and not so at its end
-  bool bends;       // or the other between
-  bool is_doubtful; // or who knows
-  Crossing first, second;  // where
+  bool is_true;            // at its start
+  bool changes;            // and not so at its end
+  bool bends;              // or the other between
+  bool is_doubtful;        // or who knows
+  Crossing first, second;  // where; kNever if there is none
 };
 
 Literal literal_along(uint i, bool complemented) {
