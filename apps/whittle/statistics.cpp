@@ -56,6 +56,9 @@ void add_drawing(Lines out, const RasterStats& s) {
                  "device (ms)   {:>12.1f}   draw {:.1f}, resolve {:.1f}; sorted in {:.1f}\n",
                  drawn, s.in_view, s.drawn_second, s.draws, s.draw_ms + s.resolve_ms, s.draw_ms,
                  s.resolve_ms, s.order_ms);
+  if (s.in_doubt > 0)
+    fmt::format_to(out, "in doubt      {:>12}   pixels with floats; looked at again in {:.1f} ms\n",
+                   s.in_doubt, s.second_ms);
 }
 
 }  // namespace

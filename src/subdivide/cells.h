@@ -127,6 +127,7 @@ class RefinerPool;
 struct CellTree {
   Box region;
   const Cell* root = nullptr;                 ///< the region's cell; null without a region
+  double margin = 0;                          ///< leaves are right so far beyond their cells
   std::shared_ptr<RefinerPool> refiner_pool;  ///< owns the cells, knows how to refine them
 };
 

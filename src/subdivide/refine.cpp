@@ -76,7 +76,7 @@ Refiner::Refiner(const Scene& scene, const UnitBoxes& boxes, const SubdivideSett
       settings_(settings),
       has_threshold_(bool(settings.is_small)),
       region_edge_(max_component(scene.region.size())),
-      simplifier_(scene, boxes, region_edge_ * kCellMargin),
+      simplifier_(scene, boxes, region_edge_ * settings.margin),
       analysis_(scene) {}
 
 CellLink Refiner::refined(const Cell& cell, const Helpers* helpers) {
@@ -282,8 +282,8 @@ std::optional<CellLink> Refiner::split_wide(const Cell& cell, const OpenCell& pa
   const size_t wanted = parent.token_count / kWantedOperands;
   const int splits = std::min(int(std::bit_width(wanted)), kMostSplitsAtOnce);
   const SplitGrid grid = make_grid(parent.box, splits, settings_.split, parent.depth);
-  const std::vector<Formula> dealt =
-      deal_operands(scene_, parent.tokens(), grid, region_edge_ * kCellMargin, loop_over(helpers));
+  const std::vector<Formula> dealt = deal_operands(
+      scene_, parent.tokens(), grid, region_edge_ * settings_.margin, loop_over(helpers));
   if (dealt.empty()) return std::nullopt;
   return open_parts(cell, parent, grid, {dealt.begin(), dealt.end()}, helpers);
 }

@@ -45,6 +45,7 @@ std::vector<const Cell*> widen(const CellTree& tree, const Workers& workers,
 CellTree open_cells(const Scene& scene, const SubdivideSettings& settings) {
   CellTree tree;
   tree.region = scene.region;
+  tree.margin = settings.margin * max_component(scene.region.size());
   tree.refiner_pool = std::make_shared<RefinerPool>(scene, settings);
   tree.root = &tree.refiner_pool->root();
   return tree;

@@ -41,6 +41,10 @@ inline constexpr uint32_t kAutoLeafSize = 0;
 /// Whether a cell is small, by its box.
 using IsSmall = std::function<bool(const Box&)>;
 
+/// Far above the rounding of a ray's entry and exit in double (1e-15), far below anything seen. It
+/// puts a surface that lies exactly on a split into both cells, so no ray slips between them.
+inline constexpr double kCellMargin = 1e-10;
+
 struct SubdivideSettings {
   /// Half-spaces (or primitives) that a leaf may hold, or kAutoLeafSize.
   uint32_t leaf_size = kAutoLeafSize;
@@ -66,13 +70,11 @@ struct SubdivideSettings {
   /// parts, so that the cells do not depend on the order in which they are refined. If the formula
   /// as a whole takes more, that is what is taken (docs/decisions/0010-limits.md).
   size_t memory = size_t(1) << 30;
+  /// How far a cell is grown before anything is classified against it: its leaf is right there,
+  /// too. A share of the region's longest edge, at least kCellMargin.
+  double margin = kCellMargin;
   int threads = 0;  ///< 0: all
 };
-
-/// How far a cell is grown before anything is classified against it, as a share of the region's
-/// longest edge. Far above the rounding of a ray's entry and exit (1e-15), far below anything seen;
-/// it puts a surface that lies exactly on a split into both cells, so no ray slips between them.
-inline constexpr double kCellMargin = 1e-10;
 
 /// A tree of one open cell, to be refined where somebody looks. `scene` must outlive the tree.
 CellTree open_cells(const Scene& scene, const SubdivideSettings& settings);

@@ -65,6 +65,12 @@ bool leaf_value(const Scene& scene, CellLink cell, Vec3 p) {
   }
 }
 
+/// Where a cell's leaf must be right.
+Box grown(const Box& box, const CellTree& tree) {
+  const Vec3 margin{tree.margin, tree.margin, tree.margin};
+  return {box.lo - margin, box.hi + margin};
+}
+
 uint64_t cell_count(const CellTree& tree) {
   return statistics_of(tree).cell_count();
 }
@@ -129,6 +135,9 @@ std::vector<Rules> all_rules() {
   SubdivideSettings cost;
   cost.split = SplitRule::kCost;
   rules.push_back({"by cost", cost});
+  SubdivideSettings overlapping;
+  overlapping.margin = 1.0 / 64;
+  rules.push_back({"overlapping", overlapping});
   return rules;
 }
 
@@ -145,7 +154,7 @@ TEST(Subdivide, EveryLeafIsRightInItsCell) {
       uint32_t number = 0;
       for_each_leaf(tree, [&](CellLink cell, const Box& box) {
         if (++number % 7 != 0) return;
-        const Vec3 p = points.in(box);
+        const Vec3 p = points.in(grown(box, tree));
         if (near_a_surface(scene, p)) return;
         ASSERT_EQ(leaf_value(scene, cell, p), contains(scene, scene.formula, p))
             << rules.name << " seed " << seed << " kind " << int(cell.kind());
@@ -273,6 +282,7 @@ TEST(Subdivide, CellsThatAreSplitManyTimesAtOnceAreRight) {
     SubdivideSettings one, four;
     one.threads = 1, four.threads = 4;
     one.rays = four.rays = 1e4;
+    one.margin = four.margin = 1.0 / 256;
     const CellTree tree = subdivide(scene, one);
     EXPECT_TRUE(same(tree, subdivide(scene, four)));
     const CellTree lazy = open_cells(scene, one);
@@ -282,7 +292,7 @@ TEST(Subdivide, CellsThatAreSplitManyTimesAtOnceAreRight) {
     size_t looked_at = 0;
     for_each_leaf(tree, [&](CellLink cell, const Box& box) {
       if (++number % 13 != 0) return;
-      const Vec3 p = points.in(box);
+      const Vec3 p = points.in(grown(box, tree));
       if (near_a_surface(scene, p)) return;
       ++looked_at;
       ASSERT_EQ(leaf_value(scene, cell, p), contains(scene, scene.formula, p));

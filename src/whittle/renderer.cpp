@@ -145,9 +145,10 @@ Status Renderer::State::make_tracer(const Camera& camera) {
   subdivision.rays = double(camera.width) * double(camera.height);
   if (settings.pixel_threshold > 0)
     subdivision.is_small = PixelThreshold(camera, settings.pixel_threshold);
+  const bool is_raster = settings.backend == Backend::kVulkanRaster;
+  if (is_raster) subdivision.margin = cell_margin(*device);
   cells = open_cells(scene, subdivision);
   cells_camera = camera;
-  const bool is_raster = settings.backend == Backend::kVulkanRaster;
   if (refine == Refine::kAll)
     refine_all(*cells, workers);
   else if (!is_raster)
@@ -156,8 +157,11 @@ Status Renderer::State::make_tracer(const Camera& camera) {
   times.send = 0;
   if (is_raster) {
     const Stopwatch sending;
+    const MakeTracer second_look = [this] {
+      return make_cpu_tracer(scene, *cells, settings.threads);
+    };
     Result<std::unique_ptr<RasterTracer>> made =
-        make_raster_tracer(device, scene, *cells, settings.threads);
+        make_raster_tracer(device, scene, *cells, second_look, settings.threads);
     if (!made) return made.error();
     raster = made->get();
     tracer = *std::move(made);

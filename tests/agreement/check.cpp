@@ -2,7 +2,7 @@
 //
 //   agreement_check FILE...                        three views each, several leaf sizes
 //   agreement_check --seeds COUNT [--first SEED] [--coincident | --nearly]
-//   agreement_check --raster specialised|unified [--device DEVICE] ...
+//   agreement_check --raster specialised|unified [--floats] [--device DEVICE] ...
 //                                                  vulkan-raster and not cpu, all its messages too
 //
 // Prints every model that differs with its first differing pixel; exit code 1 if any does.
@@ -25,17 +25,23 @@ namespace {
 /// Null: the cpu backend is held to the oracle.
 using Device = std::shared_ptr<RasterDevice>;
 
-AgreementReport check(const Device& device, const Model& model,
-                      std::span<const uint32_t> leaf_sizes, int width, int height) {
+struct Checked : AgreementReport {
+  uint64_t in_doubt = 0;  ///< pixels that shaders in floats left to the second look
+};
+
+Checked check(const Device& device, const Model& model, std::span<const uint32_t> leaf_sizes,
+              int width, int height) {
   const auto oracle = make_oracle_tracer(model);
-  AgreementReport sum;
+  Checked sum;
   for (const uint32_t k : leaf_sizes) {
     SubdivideSettings settings;
     settings.leaf_size = k;
     if (device) {
       RasterSubject raster(device, model, settings);
-      for (const Camera& camera : cameras_for(model, width, height))
+      for (const Camera& camera : cameras_for(model, width, height)) {
         sum += check_agreement(model, *raster.tracer, *oracle, camera);
+        sum.in_doubt += raster.tracer->stats().in_doubt;
+      }
       if (!raster.tracer->status()) sum.first_difference = raster.tracer->status().error().message;
       continue;
     }
@@ -48,11 +54,13 @@ AgreementReport check(const Device& device, const Model& model,
   return sum;
 }
 
-bool report(const std::string& name, const AgreementReport& r, bool always) {
+bool report(const std::string& name, const Checked& r, bool always) {
   const bool bad = r.unexplained > 0 || r.ambiguous_unmatched > 0;
   if (bad || always)
-    std::printf("%s: %d pixels, %d hits, %d ambiguous, %d unexplained, %d unmatched\n",
-                name.c_str(), r.pixels, r.hits, r.ambiguous, r.unexplained, r.ambiguous_unmatched);
+    std::printf(
+        "%s: %d pixels, %d hits, %d ambiguous, %d unexplained, %d unmatched, %llu in doubt\n",
+        name.c_str(), r.pixels, r.hits, r.ambiguous, r.unexplained, r.ambiguous_unmatched,
+        static_cast<unsigned long long>(r.in_doubt));
   if (bad) std::printf("  %s\n", r.first_difference.c_str());
   return !bad;
 }
@@ -74,6 +82,8 @@ int run(int argc, char** argv) {
       coincident = true;
     else if (!std::strcmp(argv[i], "--nearly"))
       coincident = nearly = true;
+    else if (!std::strcmp(argv[i], "--floats"))
+      settings.numbers = ShaderNumbers::kFloat;
     else if (!std::strcmp(argv[i], "--device") && i + 1 < argc)
       settings.device = argv[++i];
     else if (!std::strcmp(argv[i], "--raster") && i + 1 < argc) {
@@ -103,17 +113,18 @@ int run(int argc, char** argv) {
     static constexpr uint32_t kLeafSizes[] = {2, 4, 6, 16};
     good &= report(file, check(device, read->model, kLeafSizes, 96, 72), true);
   }
-  AgreementReport sum;
+  Checked sum;
   for (uint64_t seed = first; seed < first + seeds; ++seed) {
     const uint32_t k[] = {uint32_t(2 + seed % 8)};
-    const AgreementReport r = check(device,
-                                    model_of(random_tree(seed, {.primitives = 4 + int(seed % 24),
-                                                                .coincident = coincident,
-                                                                .nearly = nearly,
-                                                                .halfspaces = seed % 5 == 0})),
-                                    k, 16, 16);
+    const Checked r = check(device,
+                            model_of(random_tree(seed, {.primitives = 4 + int(seed % 24),
+                                                        .coincident = coincident,
+                                                        .nearly = nearly,
+                                                        .halfspaces = seed % 5 == 0})),
+                            k, 16, 16);
     good &= report("seed " + std::to_string(seed), r, false);
     sum += r;
+    sum.in_doubt += r.in_doubt;
   }
   if (seeds > 0) report("all seeds", sum, true);
   if (device) {

@@ -54,6 +54,27 @@ std::vector<SubdivideSettings> all_leaf_sizes() {
   return rules;
 }
 
+// On an edge of the model, where cells meet, and looking along one of its faces: some rays run in
+// the face to the last digit, and the first cell on their way ends where it begins.
+TEST(CpuAgreement, AnEyeOnAnEdgeThatLooksAlongAFace) {
+  const Result<Read> read = read_file(std::string(WHITTLE_EXAMPLES) + "/cheese100.csg");
+  ASSERT_TRUE(read);
+  const auto oracle = make_oracle_tracer(read->model);
+  CpuSubject cpu(read->model, leaf_size(3));
+  Camera camera;
+  camera.eye = {-50, 0, 50};
+  camera.forward = {1, 0, 0};
+  camera.right = normalize(cross(camera.forward, Vec3{0.1, 0.2, 1}));
+  camera.up = cross(camera.right, camera.forward);
+  camera.half_height = 1.2;
+  camera.width = camera.height = 64;
+  const AgreementReport report = check_agreement(read->model, *cpu.tracer, *oracle, camera);
+  EXPECT_EQ(report.unexplained, 0) << report.first_difference;
+  EXPECT_EQ(report.ambiguous_unmatched, 0) << report.first_difference;
+  EXPECT_EQ(cpu.tracer->stats().disagreements, 0u);
+  EXPECT_GT(report.hits, 1000);
+}
+
 TEST(CpuAgreement, Zoo) {
   const std::vector<SubdivideSettings> rules = all_leaf_sizes();
   for (const ZooScene& scene : zoo()) {

@@ -8,6 +8,7 @@
 #include "lower/lower.h"
 #include "subdivide/subdivide.h"
 #include "support/agreement.h"
+#include "trace/cpu/cpu.h"
 #include "trace/vulkan/raster.h"
 
 namespace whittle {
@@ -23,9 +24,11 @@ struct RasterSubject {
     Result<Scene> lowered = lower(model);
     WHITTLE_CHECK(lowered);
     scene = *std::move(lowered);
-    cells = eager ? subdivide(scene, settings) : open_cells(scene, settings);
-    Result<std::unique_ptr<RasterTracer>> made =
-        make_raster_tracer(std::move(device), scene, cells);
+    SubdivideSettings rules = settings;
+    rules.margin = cell_margin(*device);
+    cells = eager ? subdivide(scene, rules) : open_cells(scene, rules);
+    Result<std::unique_ptr<RasterTracer>> made = make_raster_tracer(
+        std::move(device), scene, cells, [this] { return make_cpu_tracer(scene, cells); });
     if (!made) std::fprintf(stderr, "%s\n", made.error().message.c_str());
     WHITTLE_CHECK(made);
     tracer = *std::move(made);

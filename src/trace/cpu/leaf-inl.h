@@ -67,6 +67,7 @@ class LeavesInLanes {
   Bool is_at_eye(Real at_eye, Real t, const End& end) const;
   End end_at_eye(Real at_eye, L::AlongRay f, Real t, End end) const;
 
+  void forget_at_eye();
   void solve(CellKind kind, const Leaf& leaf);
   template <AlongKind kKind>
   uint32_t look_at(const LeafLiteral& literal, size_t number, uint32_t settles, uint32_t settling);
@@ -141,7 +142,18 @@ inline void LeavesInLanes::pass(CellLink cell) {
       const Leaf& leaf = cell.leaf();
       make_room(leaf.literal_count);
       solve(cell.kind(), leaf);
+      if (HWY_UNLIKELY(tile_.from_within)) forget_at_eye();
     }
+  }
+}
+
+/// On a way that ends at the eye, sides are only told by where the ray goes: the next cell knows
+/// better.
+inline void LeavesInLanes::forget_at_eye() {
+  for (size_t i = 0; i < visitors.count; ++i) {
+    const size_t packet = visitors.packet[i];
+    const Real end = hn::Load(D(), visitors.t1 + i * Tile::lanes());
+    tile_.known[packet] &= uint8_t(~(bits(hn::Le(end, tile_.at_eye(packet))) & visitors.lanes[i]));
   }
 }
 

@@ -1,11 +1,11 @@
 #include "trace/vulkan/flatten.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <span>
 
 #include "subdivide/refine.h"
+#include "trace/vulkan/words.h"
 
 namespace whittle {
 namespace {
@@ -27,12 +27,8 @@ enum OwningStep : uint32_t {
 constexpr uint32_t kRuleWord = 12;
 
 void add_number(std::vector<uint32_t>& to, double value, bool doubles) {
-  if (doubles) {
-    const auto bits = std::bit_cast<uint64_t>(value);
-    to.insert(to.end(), {uint32_t(bits), uint32_t(bits >> 32)});
-  } else {
-    to.insert(to.end(), {std::bit_cast<uint32_t>(float(value)), 0});
-  }
+  const auto words = words_of(value, doubles);
+  to.insert(to.end(), words.begin(), words.end());
 }
 
 void add_vector(std::vector<uint32_t>& to, Vec3 v, bool doubles) {

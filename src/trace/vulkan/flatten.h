@@ -13,7 +13,7 @@
 
 namespace whittle {
 
-/// A number takes two words: a double's, or a float's and a zero.
+/// A number takes two words (words.h).
 inline constexpr uint32_t kHalfSpaceWords = 28;
 inline constexpr uint32_t kCellWords = 16;
 

@@ -1,10 +1,12 @@
 #include "trace/vulkan/raster.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <functional>
 
 #include "base/timing.h"
+#include "subdivide/subdivide.h"
 #include "trace/vulkan/cell_stream.h"
 #include "trace/vulkan/cell_supply.h"
 #include "trace/vulkan/probe_layers.h"
@@ -14,13 +16,20 @@
 namespace whittle {
 namespace {
 
+/// What shaders/resolve.comp writes where it is in doubt.
+bool is_doubtful(const Hit& hit) {
+  return hit.id == UINT32_MAX;
+}
+
 /// Brings together the supply of cells, their place on the device, and the drawer of tiles.
 class RasterTracerImpl final : public RasterTracer {
  public:
   RasterTracerImpl(const Scene& scene, const CellTree& tree, std::shared_ptr<RasterDevice> device,
-                   int threads)
+                   const MakeTracer& second_look, int threads)
       : scene_(scene),
+        cell_margin_(tree.margin),
         device_(std::move(device)),
+        second_look_(second_look),
         supply_(scene, tree, device_->doubles(), threads) {}
 
   Status prepare() {
@@ -58,12 +67,16 @@ class RasterTracerImpl final : public RasterTracer {
       const PixelRect& tile = tiles[i];
       const auto show = [&] {
         copy_hits(tile, frame);
+        look_again(camera, tile, frame);
         watch_(frame);
       };
       status_ =
           trace_tile(camera, tile, nullptr, stats_, watch_ ? std::function<void()>(show) : nullptr);
       if (!status_) break;
       copy_hits(tile, frame);
+      const Stopwatch again;
+      stats_.in_doubt += look_again(camera, tile, frame);
+      stats_.second_ms += again.milliseconds();
       if (progress) progress(double(i + 1) / double(tiles.size()));
     }
     stats_.cells = supply_.cell_count();
@@ -95,6 +108,10 @@ class RasterTracerImpl final : public RasterTracer {
           hits[layer.places[i].position] = drawer_.hits()[i];
       }
     }
+    doubtful_.clear();
+    for (size_t i = 0; i < hits.size(); ++i)
+      if (is_doubtful(hits[i])) doubtful_.push_back({positions[i], &hits[i]});
+    settle(camera);
   }
 
  private:
@@ -118,6 +135,28 @@ class RasterTracerImpl final : public RasterTracer {
                   size_t(tile.width()) * sizeof(Hit));
   }
 
+  /// Asks the other tracer where the shaders were in doubt; says at how many pixels.
+  size_t look_again(const Camera& camera, const PixelRect& tile, Frame& frame) {
+    doubtful_.clear();
+    if (device_->doubles()) return 0;
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x)
+        if (Hit& hit = frame.at(x, y); is_doubtful(hit))
+          doubtful_.push_back({{float(x) + 0.5f, float(y) + 0.5f}, &hit});
+    settle(camera);
+    return doubtful_.size();
+  }
+
+  void settle(const Camera& camera) {
+    if (doubtful_.empty()) return;
+    if (!second_) second_ = second_look_();
+    std::vector<PixelPosition> positions;
+    for (const Doubtful& place : doubtful_) positions.push_back(place.position);
+    std::vector<Hit> hits(positions.size());
+    second_->probe(camera, positions, hits);
+    for (size_t i = 0; i < hits.size(); ++i) *doubtful_[i].hit = hits[i];
+  }
+
   Status send(const Result<CellBatch>& batch) {
     return batch ? data_.append(batch->cells, batch->words) : batch.error();
   }
@@ -127,10 +166,11 @@ class RasterTracerImpl final : public RasterTracer {
                     RasterStats& stats, const std::function<void()>& show,
                     const DrawPart& part = {}) {
     // A place may be anywhere in its pixel.
-    const double margin = device_->margin(camera) + (layer ? 1 : 0);
-    const Sight sight(camera, local_eye(scene_, camera), scene_.origin, tile, margin);
-    const ViewData view =
-        make_view_data(scene_, camera, tile, device_->doubles(), layer != nullptr, margin);
+    const Vec3 eye = local_eye(scene_, camera);
+    const double margin = device_->margin(camera, supply_.region(), eye) + (layer ? 1 : 0);
+    const Sight sight(camera, eye, scene_.origin, tile, margin);
+    const ViewData view = make_view_data(scene_, cell_margin_, camera, tile, device_->doubles(),
+                                         layer != nullptr, margin);
     if (supply_.is_open()) {
       if (!layer) return draw_stream(sight, view, show);
       if (Status done = send(supply_.at_once(&sight)); !done) return done;
@@ -171,8 +211,18 @@ class RasterTracerImpl final : public RasterTracer {
     return Done{};
   }
 
+  /// A place of which the shaders cannot say what is seen there, and where the answer goes.
+  struct Doubtful {
+    PixelPosition position;
+    Hit* hit;
+  };
+
   const Scene& scene_;
+  const double cell_margin_;
   std::shared_ptr<RasterDevice> device_;  // outlives all that is made on it
+  const MakeTracer second_look_;
+  std::unique_ptr<Tracer> second_;  ///< made when it is first needed
+  std::vector<Doubtful> doubtful_;
   CellSupply supply_;
   gpu::Commands commands_;
   Bindings bindings_;
@@ -201,14 +251,22 @@ bool is_software(const RasterDevice& device) {
   return device.gpu().info().type == gpu::DeviceType::kSoftware;
 }
 
+double cell_margin(const RasterDevice& device) {
+  // Twice what shaders/ray_float.glsl needs four edges of the region from its reference, and half
+  // of the smallest cells.
+  return device.doubles() ? kCellMargin : std::ldexp(1.0, -15);
+}
+
 std::vector<std::string> validation_messages(const RasterDevice& device) {
   return device.gpu().messages();
 }
 
 Result<std::unique_ptr<RasterTracer>> make_raster_tracer(std::shared_ptr<RasterDevice> device,
                                                          const Scene& scene, const CellTree& cells,
+                                                         const MakeTracer& second_look,
                                                          int threads) {
-  auto tracer = std::make_unique<RasterTracerImpl>(scene, cells, std::move(device), threads);
+  auto tracer =
+      std::make_unique<RasterTracerImpl>(scene, cells, std::move(device), second_look, threads);
   if (Status done = tracer->prepare(); !done) return done.error();
   return std::unique_ptr<RasterTracer>(std::move(tracer));
 }

@@ -4,7 +4,8 @@
 // numbers of half-spaces, whose parameters are uploaded once; boxes are drawn by few indirect
 // calls; the depth of a fragment is its cell's rank from front to back, so cells in front hide
 // those behind before a fragment runs (docs/decisions/0020-depth-is-rank.md); fragments only say
-// which cell is seen, and the facts are made once a pixel. How it works: docs/vulkan.md.
+// which cell is seen, and the facts are made once a pixel; with floats they prove it, or say that
+// they cannot (docs/decisions/0021-double-in-shaders.md). How it works: docs/vulkan.md.
 #pragma once
 
 #include <functional>
@@ -41,14 +42,24 @@ Result<std::shared_ptr<RasterDevice>> open_raster_device(const RasterSettings& s
 std::string describe(const RasterDevice& device);
 /// Whether it is the CPU that does its work.
 bool is_software(const RasterDevice& device);
+/// How far beyond its cell a leaf must be right for the device, SubdivideSettings::margin: floats
+/// are less sure of where a cell ends. With less all is right, too, but nearly all is in doubt.
+double cell_margin(const RasterDevice& device);
 /// All that the validation layer has complained about.
 std::vector<std::string> validation_messages(const RasterDevice& device);
+
+/// Makes a tracer for the same scene and cells that computes in doubles.
+using MakeTracer = std::function<std::unique_ptr<Tracer>()>;
 
 /// If cells are open, the first picture refines those that it needs, on that many threads (0: all),
 /// while others are drawn; later pictures refine first what they may see. `scene` must outlive the
 /// tracer. A kMachine error if the device has no room for the cells.
+///
+/// Where shaders compute in floats they prove what they see, and where they cannot, they say so:
+/// there the tracer made by `second_look` answers (docs/numerics.md). With doubles it is not made.
 Result<std::unique_ptr<RasterTracer>> make_raster_tracer(std::shared_ptr<RasterDevice> device,
                                                          const Scene& scene, const CellTree& cells,
+                                                         const MakeTracer& second_look,
                                                          int threads = 0);
 
 }  // namespace whittle

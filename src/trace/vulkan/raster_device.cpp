@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "trace/vulkan/view_data.h"
+
 namespace whittle {
 namespace {
 
@@ -53,12 +55,18 @@ Status RasterDevice::need(LeafCase shader) {
   return pipelines_.draw[shader] ? Status(Done{}) : add_draw(*gpu_, shader, pipelines_);
 }
 
-double RasterDevice::margin(const Camera& camera) const {
+double RasterDevice::margin(const Camera& camera, const Box& region, Vec3 eye) const {
   // Two steps of the rasteriser's grid, and what rounding does to a corner before it gets there.
   double margin = 2 * std::ldexp(1.0, -int(gpu_->limits().subPixelPrecisionBits)) + 1.0 / 64;
-  // Floats place corners so badly.
-  if (!doubles_ && !camera.orthographic) margin += 1e-6 / camera.units_per_pixel();
-  return margin;
+  if (doubles_) return margin;
+  // Floats place corners so badly, as a share of how far they are from their reference. No corner
+  // is nearer to the eye than that.
+  constexpr double kInFloats = 4e-6;
+  const double ahead = reference_ahead(region, camera, eye);
+  const Vec3 reference = eye + camera.forward * ahead;
+  const double reach = length(max(abs(region.lo - reference), abs(region.hi - reference)));
+  const double share = camera.orthographic ? reach : reach > 2 * ahead ? 2 : reach / ahead;
+  return margin + kInFloats * share / camera.units_per_pixel();
 }
 
 }  // namespace whittle

@@ -2,6 +2,7 @@
 // shaders are compiled once.
 #pragma once
 
+#include "base/box.h"
 #include "trace/vulkan/pipelines.h"
 #include "trace/vulkan/raster.h"
 
@@ -22,8 +23,9 @@ class RasterDevice {
   bool doubles() const { return doubles_; }  ///< shaders compute in double precision
   bool storage() const { return storage_; }  ///< and read storage buffers, not texel buffers
   uint32_t tile_side() const { return tile_side_; }  ///< pixels that it draws at a time, at most
-  /// Pixels that a box must be grown by on the screen, so that no rounding loses a pixel.
-  double margin(const Camera& camera) const;
+  /// Pixels that a box must be grown by on the screen, so that no rounding loses a pixel. `region`
+  /// and `eye`: in local coordinates.
+  double margin(const Camera& camera, const Box& region, Vec3 eye) const;
 
  private:
   /// Which of the shaders the device takes.

@@ -36,6 +36,8 @@ struct RasterStats {
   uint64_t drawn_first = 0;   ///< those drawn because they are probably seen,
   uint64_t drawn_second = 0;  ///< and those that these did not hide; tiles add up
   uint32_t draws = 0;         ///< calls that did it
+  uint64_t in_doubt = 0;      ///< pixels that shaders in floats left to the second look
+  double second_ms = 0;       ///< which took so long
   uint64_t batches = 0;       ///< in which cells came, if they were refined while others were drawn
   double first_ms = 0;        ///< then, from the beginning until the first of them were drawn
   double order_ms = 0;        ///< on the host: cells sorted front to back

@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "gpu/vulkan.h"
 #include "lower/lower.h"
 #include "subdivide/subdivide.h"
 #include "support/agreement.h"
 #include "support/read_text.h"
+#include "trace/cpu/cpu.h"
 
 namespace whittle {
 namespace {
@@ -25,6 +27,9 @@ struct Subject {
     scene = *lower(model);
     cells = subdivide(scene, {});
   }
+  MakeTracer second_look(const CellTree& tree) const {
+    return [this, tree] { return make_cpu_tracer(scene, tree); };
+  }
   std::unique_ptr<RasterTracer> tracer() const { return tracer_of(cells); }
   std::unique_ptr<RasterTracer> tracer_of(const CellTree& tree) const {
     RasterSettings settings;
@@ -32,7 +37,8 @@ struct Subject {
     Result<std::shared_ptr<RasterDevice>> device = open_raster_device(settings);
     EXPECT_TRUE(device) << device.error().message;
     if (!device) return nullptr;
-    Result<std::unique_ptr<RasterTracer>> made = make_raster_tracer(*device, scene, tree);
+    Result<std::unique_ptr<RasterTracer>> made =
+        make_raster_tracer(*device, scene, tree, second_look(tree));
     EXPECT_TRUE(made) << made.error().message;
     return made ? *std::move(made) : nullptr;
   }
@@ -132,6 +138,75 @@ TEST(Raster, SettingUpDrawsNothingAndHarmsNothing) {
   expect_same(tracer->render(camera, {}).hits, expected.hits);
 }
 
+/// Whom shaders in floats ask where they are in doubt: says what nobody could have seen.
+class Marker final : public Tracer {
+ public:
+  static constexpr Hit kMark{-1, 12345, {}};
+  explicit Marker(size_t& asked) : asked_(asked) {}
+  const char* name() const override { return "marker"; }
+  Frame render(const Camera& camera, const Progress&) override {
+    return Frame(camera.width, camera.height);
+  }
+  void probe(const Camera&, std::span<const PixelPosition> positions,
+             std::span<Hit> hits) override {
+    asked_ += positions.size();
+    std::ranges::fill(hits, kMark);
+  }
+
+ private:
+  size_t& asked_;
+};
+
+/// Of a picture of the holed block how many pixels are in doubt, while all others show what they
+/// should. The cells' margin is the device's, or the least.
+uint64_t in_doubt(ShaderNumbers numbers, bool least_margin) {
+  RasterSettings settings;
+  settings.numbers = numbers;
+  const Result<std::shared_ptr<RasterDevice>> device = open_raster_device(settings);
+  EXPECT_TRUE(device) << device.error().message;
+  const Subject subject(holed_block());
+  SubdivideSettings rules;
+  if (!least_margin) rules.margin = cell_margin(**device);
+  const CellTree cells = subdivide(subject.scene, rules);
+  size_t asked = 0;
+  const auto tracer = *make_raster_tracer(*device, subject.scene, cells,
+                                          [&] { return std::make_unique<Marker>(asked); });
+  const Camera camera = cameras_for(subject.model, 128, 96)[0];
+  const Frame expected = make_cpu_tracer(subject.scene, cells)->render(camera, {});
+  // All pixels that nobody was asked about are right.
+  const auto hold = [&](std::span<const Hit> seen) {
+    size_t marked = 0;
+    for (size_t i = 0; i < seen.size(); ++i) {
+      if (same(seen[i], Marker::kMark))
+        ++marked;
+      else
+        EXPECT_EQ(seen[i].id, expected.hits[i].id);
+    }
+    EXPECT_EQ(marked, std::exchange(asked, 0));
+  };
+  hold(tracer->render(camera, {}).hits);
+  std::vector<PixelPosition> places;
+  for (int y = 0; y < camera.height; ++y)
+    for (int x = 0; x < camera.width; ++x) places.push_back({float(x) + 0.5f, float(y) + 0.5f});
+  std::vector<Hit> probed(places.size());
+  tracer->probe(camera, places, probed);
+  hold(probed);
+  return tracer->stats().in_doubt;
+}
+
+TEST(Raster, WhatFloatsCannotTellIsAskedAgainAndNothingElse) {
+  const uint64_t doubtful = in_doubt(ShaderNumbers::kFloat, false);
+  EXPECT_GT(doubtful, 0u);
+  EXPECT_LT(doubtful, 128u * 96 / 100);
+  // Where leaves are right in their cells alone, floats cannot tell what is in a cell.
+  EXPECT_GT(in_doubt(ShaderNumbers::kFloat, true), 128u * 96 / 10);
+  RasterSettings doubles;
+  doubles.numbers = ShaderNumbers::kDouble;
+  if (open_raster_device(doubles)) {
+    EXPECT_EQ(in_doubt(ShaderNumbers::kDouble, true), 0u);
+  }
+}
+
 TEST(Raster, AnEmptySolidIsAnEmptyPicture) {
   const Subject subject("difference() { cube(1); cube(1); }");
   const auto tracer = subject.tracer();
@@ -195,7 +270,8 @@ TEST(Raster, OutOfMemoryIsAnError) {
       PFN_vkAllocateMemory(
           [](VkDevice, const VkMemoryAllocateInfo*, const VkAllocationCallbacks*,
              VkDeviceMemory*) -> VkResult { return VK_ERROR_OUT_OF_DEVICE_MEMORY; }));
-  const auto made = make_raster_tracer(*device, subject.scene, subject.cells);
+  const auto made =
+      make_raster_tracer(*device, subject.scene, subject.cells, subject.second_look(subject.cells));
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().kind, ErrorKind::kMachine);
   EXPECT_NE(made.error().message.find(": out of memory"), std::string::npos);

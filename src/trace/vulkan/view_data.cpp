@@ -1,19 +1,20 @@
 #include "trace/vulkan/view_data.h"
 
-#include <bit>
+#include <initializer_list>
 
 #include "model/instances.h"
+#include "trace/vulkan/words.h"
 
 namespace whittle {
 namespace {
 
 /// An eye this close to a surface stands on it, this close to the eye a ray still does, and this
 /// far ahead it looks where it goes; shares of the region's longest edge, above what rounding does.
-struct EyeRules {
-  double on_surface, at_eye, ahead;
-};
-constexpr EyeRules kInDoubles{2e-14, 1e-13, 1e-9};
-constexpr EyeRules kInFloats{1e-6, 5e-6, 1e-4};
+/// With floats such places are in doubt.
+constexpr double kOnSurface = 2e-14, kAtEye = 1e-13, kAhead = 1e-9;
+
+/// Further than any change.
+constexpr double kEverywhere = 1e37;
 
 }  // namespace
 
@@ -21,44 +22,36 @@ Vec3 local_eye(const Scene& scene, const Camera& camera) {
   return camera.eye - scene.origin;
 }
 
-ViewData make_view_data(const Scene& scene, const Camera& camera, const PixelRect& tile,
-                        bool doubles, bool probes, double margin) {
+double reference_ahead(const Box& region, const Camera& camera, Vec3 eye) {
+  if (camera.orthographic) return dot(region.center() - eye, camera.forward);
+  return length(max(max(region.lo - eye, eye - region.hi), Vec3{}));
+}
+
+ViewData make_view_data(const Scene& scene, double cell_margin, const Camera& camera,
+                        const PixelRect& tile, bool doubles, bool probes, double margin) {
   ViewData data;
-  const EyeRules& rules = doubles ? kInDoubles : kInFloats;
   const double edge = max_component(scene.region.size());
   const Vec3 eye = local_eye(scene, camera);
-  const double together_here =
-      together({scene.region.lo + scene.origin, scene.region.hi + scene.origin});
+  const double ahead = doubles ? 0 : reference_ahead(scene.region, camera, eye);
   // In the order of shaders/view.glsl.
-  const double numbers[] = {eye.x,
-                            eye.y,
-                            eye.z,
-                            camera.right.x,
-                            camera.right.y,
-                            camera.right.z,
-                            camera.up.x,
-                            camera.up.y,
-                            camera.up.z,
-                            camera.forward.x,
-                            camera.forward.y,
-                            camera.forward.z,
-                            camera.units_per_pixel(),
-                            0.5 * camera.width,
-                            0.5 * camera.height,
-                            camera.orthographic ? -camera.ortho_reach : 0,
-                            rules.at_eye * edge,
-                            rules.on_surface * edge,
-                            rules.ahead * edge,
-                            doubles ? together_here : 0};
-  static_assert(2 * std::size(numbers) == std::tuple_size_v<decltype(data.numbers)>);
-  for (size_t i = 0; i < std::size(numbers); ++i) {
-    if (doubles) {
-      const auto bits = std::bit_cast<uint64_t>(numbers[i]);
-      data.numbers[2 * i] = uint32_t(bits);
-      data.numbers[2 * i + 1] = uint32_t(bits >> 32);
-    } else {
-      data.numbers[2 * i] = std::bit_cast<uint32_t>(float(numbers[i]));
-    }
+  size_t count = 0;
+  const auto add = [&](std::initializer_list<double> numbers) {
+    for (const double number : numbers)
+      for (const uint32_t word : words_of(number, doubles)) data.numbers[count++] = word;
+  };
+  const auto add_vector = [&](Vec3 v) { add({v.x, v.y, v.z}); };
+  add_vector(doubles ? eye : Vec3{});
+  add_vector(camera.right);
+  add_vector(camera.up);
+  add_vector(camera.forward);
+  add({camera.units_per_pixel(), 0.5 * camera.width, 0.5 * camera.height,
+       camera.orthographic ? -camera.ortho_reach : 0});
+  if (doubles) {
+    add({kAtEye * edge, kOnSurface * edge, kAhead * edge,
+         together({scene.region.lo + scene.origin, scene.region.hi + scene.origin})});
+  } else {
+    add({ahead, 0.5 * cell_margin, scene.bounded ? kEverywhere : 0, 4 * kOnSurface * edge});
+    add_vector(eye + camera.forward * ahead);
   }
   data.tile_origin = {tile.x0, tile.y0};
   data.tile_size = {tile.width(), tile.height()};

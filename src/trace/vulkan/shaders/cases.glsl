@@ -12,3 +12,6 @@ const bool kIsPair = kFormulas >= kIntersection && kFormulas <= kOutside;
 // Of a pair: which of them is complemented.
 const bool kFirstComplemented = kFormulas == kBackDifference || kFormulas == kOutside;
 const bool kSecondComplemented = kFormulas == kDifference || kFormulas == kOutside;
+
+// In what a pixel has seen, beside the cell's number and 1: who knows.
+const uint kDoubtBit = 0x80000000u;

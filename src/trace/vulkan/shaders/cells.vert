@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "numbers.glsl"
 #include "cases.glsl"
-#include "scene.glsl"
 #include "view.glsl"
+#include "scene.glsl"
 #include "boxes.glsl"
 
 layout(location = 0) in uint cell;    // per instance
@@ -26,8 +26,9 @@ void main() {
   // The side of the box that is seen along the face's axis, if any.
   const int axis = gl_VertexIndex >> 2;
   const bvec3 is_axis = equal(ivec3(axis), ivec3(0, 1, 2));
-  const Vec3 toward_lo = mix(box.lo, forward, bvec3(orthographic));
-  const Vec3 toward_hi = mix(Vec3(0) - box.hi, Vec3(0) - forward, bvec3(orthographic));
+  const Vec3 toward_lo = mix(box.lo + view_to_axis(), forward, bvec3(orthographic));
+  const Vec3 toward_hi =
+      mix(Vec3(0) - (box.hi + view_to_axis()), Vec3(0) - forward, bvec3(orthographic));
   const bool sees_lo = any(greaterThan(mix(vec3(0), vec3(toward_lo), is_axis), vec3(0)));
   const bool sees_hi = any(greaterThan(mix(vec3(0), vec3(toward_hi), is_axis), vec3(0)));
   if (!sees_lo && !sees_hi) {

@@ -4,8 +4,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "numbers.glsl"
 #include "cases.glsl"
-#include "scene.glsl"
 #include "view.glsl"
+#include "scene.glsl"
 #include "boxes.glsl"
 #include "pyramid.glsl"
 

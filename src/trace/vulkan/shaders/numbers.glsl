@@ -1,5 +1,6 @@
 // What the shared arithmetic of src/kernels means in GLSL. WHITTLE_DOUBLE chooses the number type.
-// A number travels in two words either way, so that all data have one layout.
+// A number travels in two words either way, so that all data have one layout: a double, or the
+// float next to it and the float next to what is left.
 #if WHITTLE_DOUBLE
 #define Real double
 #define Vec2 dvec2
@@ -10,6 +11,8 @@ Real to_real(uvec2 words) { return packDouble2x32(words); }
 #define Vec2 vec2
 #define Vec3 vec3
 Real to_real(uvec2 words) { return uintBitsToFloat(words.x); }
+// What that has lost of the number.
+Real rest_of(uvec2 words) { return uintBitsToFloat(words.y); }
 #endif
 
 #define Bool bool

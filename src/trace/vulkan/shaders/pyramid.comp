@@ -5,8 +5,8 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "numbers.glsl"
 #include "cases.glsl"
-#include "scene.glsl"
 #include "view.glsl"
+#include "scene.glsl"
 #include "pyramid.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -6,8 +6,8 @@
 #extension GL_EXT_samplerless_texture_functions : require
 #include "numbers.glsl"
 #include "cases.glsl"
-#include "scene.glsl"
 #include "view.glsl"
+#include "scene.glsl"
 
 // Until a change is found, what held before the last crossings; then, what they changed.
 uint changed[1024 / 32];
@@ -28,6 +28,10 @@ layout(set = 0, binding = 11) writeonly buffer LastSeen { uint last_seen[]; };
 layout(set = 0, binding = 12) readonly buffer Places { uint places[]; };
 
 const uint kFacts = 5;  // words a pixel: distance, id, normal
+
+// The id where the host must look again, and whether it must. What was found out is then of no use.
+const uint kDoubtfulId = 0xffffffffu;
+bool is_doubtful = false;
 
 bool is_true(uint i) { return (truth[i / 32] >> (i % 32) & 1) != 0; }
 bool happens(uint i) { return (changed[i / 32] >> (i % 32) & 1) != 0; }
@@ -67,7 +71,7 @@ const uint kMostNested = 32;
 
 // The step whose face owns a change: down the formula, at each group into the first operand that
 // changes. kNone if there is none.
-uint owning_step(uint first, uint count, Vec3 point) {
+uint owning_step(uint first, uint count, Vec3 point, Next where) {
   uint conjunctions = 1, before = 1, after = 1;  // bit per open group
   uint found[kMostNested];
   found[0] = kNone;
@@ -96,8 +100,9 @@ uint owning_step(uint first, uint count, Vec3 point) {
       was = is != happens(operand);
     } else {
       const Quadric f = half_space_quadric(operand, half_space_kind(operand));
-      was = is = (quadric_value(f, point - half_space_center(operand)) <= K(0)) !=
-                 (kind == kNotElsewhere);
+      const Vec3 q = point - half_space_center(operand);
+      was = is = (quadric_value(f, q) <= K(0)) != (kind == kNotElsewhere);
+      is_doubtful = is_doubtful || is_side_in_doubt(f, q, where);
     }
     const uint bit = 1u << level;
     const bool conjunction = (conjunctions & bit) != 0;
@@ -106,6 +111,17 @@ uint owning_step(uint first, uint count, Vec3 point) {
     if (was != is && found[level] == kNone) found[level] = by;
   }
   return found[0];
+}
+
+Vec3 point_of(Next at) { return ray.origin + ray.direction * at.t; }
+
+// The change that a pixel has seen.
+uint look(uint what, ivec2 pixel, out Change change) {
+  if (what == 0) return kNo;
+  if ((what & kDoubtBit) != 0) return kDoubt;
+  const bool meets = enter(what - 1, make_ray(position_of(pixel)));
+  const uint verdict = meets ? find_change(change) : kNo;
+  return verdict == kNo ? kIfNotFoundAgain : verdict;
 }
 
 void main() {
@@ -119,27 +135,26 @@ void main() {
   if (any(greaterThanEqual(pixel, view.tile_size))) return;
   const uint at =
       mix(uint(pixel.y * view.tile_size.x + pixel.x), place, probes) * kFacts;
-  const uint cell = texelFetch(seen, pixel, 0).x;
+  const uint what = texelFetch(seen, pixel, 0).x;
+  const uint cell = what & ~kDoubtBit;
   if (cell != 0) last_seen[cell - 1] = view.picture;
   Change change;
-  bool is_hit = cell != 0 && enter(cell - 1, make_ray(position_of(pixel)));
-  if (is_hit) is_hit = find_change(change);
-  if (!is_hit) {
+  const uint verdict = look(what, pixel, change);
+  if (verdict != kYes) {
     hits[at] = 0x7f800000u;  // infinity
-    for (uint i = 1; i < kFacts; ++i) hits[at + i] = 0;
+    hits[at + 1] = verdict == kDoubt ? kDoubtfulId : 0;
+    for (uint i = 2; i < kFacts; ++i) hits[at + i] = 0;
     return;
   }
   for (uint w = 0; w < truth_words(); ++w) changed[w] ^= truth[w];
 
-  const Vec3 point = Vec3(ray.origin.x + ray.direction.x * change.t,
-                          ray.origin.y + ray.direction.y * change.t,
-                          ray.origin.z + ray.direction.z * change.t);
+  const Vec3 point = point_of(change.at);
   uint size;
   uint literal = decisive(change, size);
   uint id = word(leaf.first + 2 * literal + 1);
   const uint first_step = leaf.first + 2 * leaf.count + 1, steps = word(first_step - 1);
   if (steps > 0 && (id == 0 || size > 1)) {
-    uint step = owning_step(first_step, steps, point);
+    uint step = owning_step(first_step, steps, point, change.at);
     // No operand changes: then the first face on that half-space has it.
     for (uint s = 0; s < steps && step == kNone; ++s) {
       const uint kind = word(first_step + 2 * s) & 7;
@@ -158,16 +173,17 @@ void main() {
   const bool complement = (literal_word(literal) & 1) != 0;
   const Vec3 center = half_space_center(half_space);
   const Quadric f = half_space_quadric(half_space, half_space_kind(half_space));
-  const Vec3 gradient = quadric_half_gradient(
-      f, Vec3(point.x - center.x, point.y - center.y, point.z - center.z));
+  const Next hit = refined(half_space, f, change.at);
+  const Vec3 q = point_of(hit) - center;
+  const Vec3 gradient = quadric_half_gradient(f, q);
   // The gradient points out of the half-space; that is out of the solid too if both were entered or
   // both left.
   const bool outward = (is_true(literal) != complement) == change.solid;
   const Real size_of = sqrt(dot3(gradient, gradient));
   const Real by = select(size_of > K(0), K(1) / size_of, K(1));
   const vec3 normal = vec3(gradient * by) * (outward ? 1.0 : -1.0);
-  hits[at] = floatBitsToUint(float(change.t + ray.shift));
-  hits[at + 1] = id;
+  hits[at] = floatBitsToUint(float(hit.t + ray.shift));
+  hits[at + 1] = is_doubtful || sign_in_doubt || are_facts_in_doubt(f, q, hit) ? kDoubtfulId : id;
   hits[at + 2] = floatBitsToUint(normal.x);
   hits[at + 3] = floatBitsToUint(normal.y);
   hits[at + 4] = floatBitsToUint(normal.z);

@@ -24,8 +24,7 @@ struct Box {
 
 Box cell_box(uint cell) {
   const uvec4 a = cell_words(cell * 4), b = cell_words(cell * 4 + 1), c = cell_words(cell * 4 + 2);
-  return Box(Vec3(to_real(a.xy), to_real(a.zw), to_real(b.xy)),
-             Vec3(to_real(b.zw), to_real(c.xy), to_real(c.zw)));
+  return Box(place(a.xy, a.zw, b.xy), place(b.zw, c.xy, c.zw));
 }
 
 struct Leaf {
@@ -43,7 +42,7 @@ Leaf cell_leaf(uint cell) {
 
 Vec3 half_space_center(uint i) {
   const uvec4 a = half_space_words(i * 7);
-  return Vec3(to_real(a.xy), to_real(a.zw), to_real(half_space_words(i * 7 + 1).xy));
+  return place(a.xy, a.zw, half_space_words(i * 7 + 1).xy);
 }
 
 const uint kPlane = 0, kSphere = 1, kQuadric = 2, kSmallQuadric = 3;

@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "numbers.glsl"
 #include "cases.glsl"
-#include "scene.glsl"
 #include "view.glsl"
+#include "scene.glsl"
 #define WHITTLE_BEFORE_CHANGE
 #include "solve.glsl"
 #include "position.glsl"
@@ -14,71 +14,88 @@ layout(location = 0) out uint seen;
 
 // The crossings of one literal along the way.
 struct Literal {
-  bool is_true;        // at its start
-  bool changes;        // and not so at its end
-  bool bends;          // or the other between
-  Real first, second;  // where; kFar if there is none
+  bool is_true;            // at its start
+  bool changes;            // and not so at its end
+  bool bends;              // or the other between
+  bool is_doubtful;        // or who knows
+  Crossing first, second;  // where; kNever if there is none
 };
 
 Literal literal_along(uint i, bool complemented) {
-  const AlongRay along = along_ray(literal_word(i) >> 1, ray);
-  const Signs signs = signs_between(along, way_start, way_end, at_eye);
+  const OnRay along = on_ray(literal_word(i) >> 1);
+  const Signs signs = signs_of(along);
   Literal l;
   l.is_true = signs.inside != complemented;
   l.changes = signs.inside != signs.at_end;
   l.bends = signs.bends;
-  l.first = select(l.changes || l.bends, root_in_way(along, signs.inside), kFar);
-  l.second = select(l.bends, root_in_way(along, !signs.inside), kFar);
+  l.is_doubtful = in_doubt(signs);
+  l.first = kNever;
+  l.second = kNever;
+  if (l.changes || l.bends) l.first = crossing_of(along, signs.inside);
+  if (l.bends) l.second = crossing_of(along, !signs.inside);
   return l;
 }
 
 // A surface alone is seen from either side, so its complement is the same. Two crossings that
 // happen together are none.
-bool is_seen_alone() {
+uint is_seen_alone() {
   const Literal l = literal_along(0, false);
-  return l.changes || (l.bends && pmax(l.first, l.second) > pmin(l.first, l.second) + view_together());
+  if (l.is_doubtful) return kDoubt;
+  if (l.changes) return kYes;
+  if (!l.bends) return kNo;
+  Next next = kNoNext;
+  add(next, l.first);
+  add(next, l.second);
+  if (is_crowded(next)) return kDoubt;
+  return pmax(l.first.t, l.second.t) > end_of(next) ? kYes : kNo;
 }
 
 // The four cases of section 3.3.4 of the paper, by which of the two is complemented. They differ in
 // what holds at the start; from there on the crossings are passed one after another, those together
 // that happen together.
-bool is_seen_pair() {
+uint is_seen_pair() {
   const Literal a = literal_along(0, kFirstComplemented);
   const Literal b = literal_along(1, kSecondComplemented);
   const bool before = a.is_true && b.is_true;
   // What is false all along settles it.
-  if ((!a.is_true && !a.changes && !a.bends) || (!b.is_true && !b.changes && !b.bends))
-    return false;
-  if (before != ((a.is_true != a.changes) && (b.is_true != b.changes))) return true;
+  if ((!a.is_true && !a.changes && !a.bends && !a.is_doubtful) ||
+      (!b.is_true && !b.changes && !b.bends && !b.is_doubtful))
+    return kNo;
+  if (a.is_doubtful || b.is_doubtful) return kDoubt;
+  if (before != ((a.is_true != a.changes) && (b.is_true != b.changes))) return kYes;
   Real until = K(0) - kFar;
   // No more than four crossings.
   for (uint round = 0; round < 4; ++round) {
-    Real next = select(a.first > until, a.first, kFar);
-    next = pmin(next, select(a.second > until, a.second, kFar));
-    next = pmin(next, select(b.first > until, b.first, kFar));
-    next = pmin(next, select(b.second > until, b.second, kFar));
-    if (next >= kFar) return false;
-    until = next + view_together();
-    const bool a_is = a.is_true != ((a.first <= until) != (a.second <= until));
-    const bool b_is = b.is_true != ((b.first <= until) != (b.second <= until));
-    if ((a_is && b_is) != before) return true;
+    Next next = kNoNext;
+    if (a.first.t > until) add(next, a.first);
+    if (a.second.t > until) add(next, a.second);
+    if (b.first.t > until) add(next, b.first);
+    if (b.second.t > until) add(next, b.second);
+    if (next.t >= kFar) return kNo;
+    if (is_crowded(next)) return kDoubt;
+    until = end_of(next);
+    const bool a_is = a.is_true != ((a.first.t <= until) != (a.second.t <= until));
+    const bool b_is = b.is_true != ((b.first.t <= until) != (b.second.t <= until));
+    if ((a_is && b_is) != before) return kYes;
   }
-  return false;
+  return kNo;
 }
 
 // Any leaf. Most rays are settled by the signs at the ends of their way alone.
-bool is_seen_any() {
+uint is_seen_any() {
   const bool conjunction = leaf.kind == kConjunction, disjunction = leaf.kind == kDisjunction;
   uint crossings = 0, bits = 0, change_bits = 0;
   uint changes[kMostLiterals / 32];
+  bool is_doubtful = false;
   for (uint i = 0; i < leaf.count; ++i) {
     const uint literal = literal_word(i);
-    const Signs signs =
-        signs_between(along_ray(literal >> 1, ray), way_start, way_end, at_eye);
+    const Signs signs = signs_of(on_ray(literal >> 1));
     const bool is_true = signs.inside != ((literal & 1) != 0);
     const bool changes_here = signs.inside != signs.at_end;
     // One literal that is false all along settles a conjunction, one that is true a disjunction.
-    if (!changes_here && !signs.bends && (is_true ? disjunction : conjunction)) return false;
+    if (!changes_here && !signs.bends && !in_doubt(signs) && (is_true ? disjunction : conjunction))
+      return kNo;
+    is_doubtful = is_doubtful || in_doubt(signs);
     crossings += uint(changes_here) + 2 * uint(signs.bends);
     bits |= uint(is_true) << (i % 32);
     change_bits |= uint(changes_here) << (i % 32);
@@ -88,28 +105,35 @@ bool is_seen_any() {
       bits = change_bits = 0;
     }
   }
-  if (crossings == 0) return false;
+  if (is_doubtful) return kDoubt;
+  if (crossings == 0) return kNo;
   bool at_start = false;
   for (uint end = 0; end < 2; ++end) {
     const bool solid = is_solid();
     if (end == 0)
       at_start = solid;
     else if (solid != at_start)
-      return true;
+      return kYes;
     for (uint w = 0; w < truth_words(); ++w) truth[w] ^= changes[w];
   }
-  if (crossings == 1) return false;
+  if (crossings == 1) return kNo;
   Change change;
   return find_change(change);
 }
 
-bool is_seen() {
+uint is_seen() {
   if (kFormulas == kOneLiteral) return is_seen_alone();
   if (kIsPair) return is_seen_pair();
   return is_seen_any();
 }
 
 void main() {
-  if (!enter(cell, make_ray(position_of(ivec2(gl_FragCoord.xy)))) || !is_seen()) discard;
-  seen = cell + 1;
+  const bool meets = enter(cell, make_ray(position_of(ivec2(gl_FragCoord.xy))));
+  uint verdict = kNo;
+  if (is_too_far())
+    verdict = kDoubt;
+  else if (meets)
+    verdict = is_seen();
+  if (verdict == kNo) discard;
+  seen = (cell + 1) | (verdict == kDoubt || !is_entered() ? kDoubtBit : 0);
 }
