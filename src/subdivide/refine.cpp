@@ -23,13 +23,16 @@ uint32_t stall_limit(uint32_t literals) {
   return std::max(6u, literals);
 }
 
+/// One conjunction or disjunction, which needs no table, of so many literals costs no more.
+constexpr uint32_t kQuickLiterals = 10;
+
 /// Whether splitting a cell of so many literals saves more than it takes, all counted in visits of
 /// a node by a ray. Each ray saves a part of the literals that it would look at, and makes a visit
-/// and a bit more; beyond a truth table it saves much more, as leaves with one are solved for many
-/// rays at once. The split itself takes so much for each literal of the formula.
-bool pays_off(uint32_t literals, double rays) {
+/// and a bit more; beyond `quick` literals, with which a leaf is solved for many rays at once, it
+/// saves much more. The split itself takes so much for each literal of the formula.
+bool pays_off(uint32_t literals, double rays, uint32_t quick = kTableLiterals) {
   constexpr double kSavedEach = 0.32, kSavedBeyond = 4, kMoreVisits = 1.3, kSplitEach = 120;
-  const uint32_t beyond = std::max(literals, kTableLiterals) - kTableLiterals;
+  const uint32_t beyond = std::max(literals, quick) - quick;
   return rays * (kSavedEach * literals + kSavedBeyond * beyond - kMoreVisits) >
          kSplitEach * literals;
 }
@@ -119,7 +122,7 @@ void Refiner::refine_all(const Cell& cell) {
 CellLink Refiner::refine(const Cell& cell, const OpenCell& open, const Helpers* helpers) {
   CellLink link;
   if (ends(open, link)) return link;
-  if (is_wide(open)) {
+  if (is_wide(open.tokens(), open.depth)) {
     if (const std::optional<CellLink> grid = split_wide(cell, open, helpers)) return *grid;
   }
   constexpr uint32_t kSplits = 3;
@@ -161,7 +164,8 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
     link = decided(analysis_.constant_value());
     return true;
   }
-  const bool simple = is_auto ? !pays_off(analysis_.size(), rays) : simple_enough();
+  const uint32_t quick = analysis_.is_one_group() ? kQuickLiterals : kTableLiterals;
+  const bool simple = is_auto ? !pays_off(analysis_.size(), rays, quick) : simple_enough();
   if (!must_end && !simple) return false;
   link =
       small && settings_.ignore_small && !simple ? CellLink(CellKind::kIgnored, nullptr) : leaf();
@@ -240,9 +244,9 @@ CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
 
 /// Whether the cell is worth splitting many times at once. Where small cells end early, each split
 /// has to be looked at.
-bool Refiner::is_wide(const OpenCell& open) const {
-  return open.token_count >= kWide && !settings_.is_small && open.depth < kMostDepth / 2 &&
-         operand_count(open.tokens()) >= kWide;
+bool Refiner::is_wide(std::span<const Token> formula, uint32_t depth) const {
+  return formula.size() >= kWide && !settings_.is_small && depth < kMostDepth / 2 &&
+         operand_count(formula) >= kWide;
 }
 
 /// A loop that helpers share, if there are any.
@@ -417,15 +421,21 @@ bool Refiner::simple_enough() const {
   return analysis_.primitive_count() <= settings_.leaf_size || analysis_.is_plain_union();
 }
 
-RefinerPool::RefinerPool(const Scene& scene, const SubdivideSettings& settings)
-    : scene_(scene), settings_(settings), boxes_(scene) {
+RefinerPool::RefinerPool(const Scene& scene, const SubdivideSettings& settings,
+                         const Workers* workers)
+    : scene_(scene), settings_(settings), boxes_(scene, workers) {
   open_root();
 }
 
 void RefinerPool::open_root() {
   Refiner& refiner = take();
   CellLink link;
-  if (!scene_.region.is_empty()) {
+  if (refiner.is_wide(scene_.formula, 0)) {
+    // Nearly all of it is in the region, and its parts will be looked at by all threads.
+    link = refiner.open(
+        {scene_.region, settings_.memory, 0, 0, expanded_size(scene_, scene_.formula), 0},
+        scene_.formula);
+  } else if (!scene_.region.is_empty()) {
     refiner.stats_.classified += scene_.formula.size();
     Formula formula;
     const Truth truth =

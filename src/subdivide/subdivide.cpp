@@ -42,10 +42,10 @@ std::vector<const Cell*> widen(const CellTree& tree, const Workers& workers,
 
 }  // namespace
 
-CellTree open_cells(const Scene& scene, const SubdivideSettings& settings) {
+CellTree open_cells(const Scene& scene, const SubdivideSettings& settings, const Workers* workers) {
   CellTree tree;
   tree.region = scene.region;
-  tree.refiner_pool = std::make_shared<RefinerPool>(scene, settings);
+  tree.refiner_pool = std::make_shared<RefinerPool>(scene, settings, workers);
   tree.root = &tree.refiner_pool->root();
   return tree;
 }
@@ -76,8 +76,9 @@ void refine_all(const CellTree& tree, const Workers& workers) {
 }
 
 CellTree subdivide(const Scene& scene, const SubdivideSettings& settings) {
-  CellTree tree = open_cells(scene, settings);
-  refine_all(tree, Workers(settings.threads));
+  const Workers workers(settings.threads);
+  CellTree tree = open_cells(scene, settings, &workers);
+  refine_all(tree, workers);
   return tree;
 }
 

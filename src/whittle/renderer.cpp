@@ -144,7 +144,7 @@ Status Renderer::State::make_tracer(const Camera& camera) {
       return is_below_pixels(camera, box, pixels);
     };
   }
-  cells = open_cells(scene, subdivision);
+  cells = open_cells(scene, subdivision, &workers);
   const bool is_raster = settings.backend == Backend::kVulkanRaster;
   if (refine == Refine::kAll)
     refine_all(*cells, workers);
