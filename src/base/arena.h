@@ -8,6 +8,8 @@
 #include <memory>
 #include <vector>
 
+#include "base/large_pages.h"
+
 namespace whittle {
 
 /// What it hands out never moves, and lives as long as the arena.
@@ -25,11 +27,12 @@ class Arena {
   }
 
  private:
-  static constexpr size_t kFirstChunk = size_t(1) << 14, kLargestChunk = size_t(1) << 20;
+  static constexpr size_t kFirstChunk = size_t(1) << 14, kLargestChunk = size_t(1) << 22;
 
   void grow(size_t bytes) {
     const size_t size = std::max(bytes, chunk_bytes_);
     chunks_.push_back(std::make_unique_for_overwrite<std::byte[]>(size));
+    prefer_large_pages(chunks_.back().get(), size);
     next_ = reinterpret_cast<uintptr_t>(chunks_.back().get());
     end_ = next_ + size;
     chunk_bytes_ = std::min(chunk_bytes_ * 2, kLargestChunk);

@@ -32,6 +32,14 @@ class Workers {
   std::unique_ptr<State> state_;
 };
 
+/// The same loop, on this thread alone if there are no workers or all is one part.
+inline void for_parts(const Workers* workers, size_t n, size_t grain, const Workers::Body& body) {
+  if (workers != nullptr && n > grain)
+    workers->for_parts(n, grain, body);
+  else if (n > 0)
+    body(0, n, 0);
+}
+
 /// What each worker has for itself, made when it first asks.
 template <class T>
 class PerWorker {

@@ -58,6 +58,14 @@ FN AlongRay sphere_along_ray(Real scale, Real c, Vec3 o, Vec3 d) {
   return make_along(scale, scale * dot3(o, d), scale * dot3(o, o) + c, K(0));
 }
 
+// A sphere's that is small beside o, taken about the place nearest to its centre: see
+// small_quadric_along_ray.
+FN AlongRay small_sphere_along_ray(Real scale, Real c, Vec3 o, Vec3 d) {
+  Real near = K(0) - dot3(o, d);
+  Vec3 p = make_vec3(o.x + d.x * near, o.y + d.y * near, o.z + d.z * near);
+  return make_along(scale, scale * dot3(p, d), scale * dot3(p, p) + c, near);
+}
+
 // A quadric's with neither off nor b, about the axes: the same numbers for less.
 FN AlongRay diagonal_along_ray(Vec3 diag, Real c, Vec3 o, Vec3 d) {
   Vec3 ad = make_vec3(diag.x * d.x, diag.y * d.y, diag.z * d.z);

@@ -106,6 +106,8 @@ TEST(Quadric, AlongARayIsTheValueOnTheRay) {
     const K::Quadric sphere{{0.7, 0.7, 0.7}, {}, {}, f.c};
     ASSERT_NEAR(K::along_value(K::sphere_along_ray(0.7, f.c, o, d), t),
                 K::quadric_value(sphere, o + d * t), 1e-13);
+    ASSERT_NEAR(K::along_value(K::small_sphere_along_ray(0.7, f.c, o, d), t),
+                K::quadric_value(sphere, o + d * t), 1e-13);
   }
 }
 
@@ -136,6 +138,7 @@ TEST(AlongRay, SmallBodiesFarFromTheRaysOriginKeepTheirDigits) {
     const double ball = 1e6 - std::sqrt(1 - miss * miss);
     const K::Quadric sphere{{0.5, 0.5, 0.5}, {}, {}, -0.5};
     EXPECT_NEAR(K::along_root(K::small_quadric_along_ray(sphere, o, d), false), ball, 2e-8);
+    EXPECT_NEAR(K::along_root(K::small_sphere_along_ray(0.5, -0.5, o, d), false), ball, 2e-8);
     const K::Quadric wall{{0.5, 0.5, 0}, {}, {}, -0.5};
     const double slope = std::hypot(d.x, d.y);
     EXPECT_NEAR(K::along_root(K::small_quadric_along_ray(wall, o, d), false),

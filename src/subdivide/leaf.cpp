@@ -43,13 +43,18 @@ void LeafAnalysis::analyse(std::span<const Token> formula) {
   // Faces of one primitive stand next to each other, so counting changes counts primitives (a
   // primitive that stands twice counts twice, as it does in the tree).
   uint32_t last_unit = UINT32_MAX;
+  bool has_and = false, has_or = false;
   for (const Token token : formula) {
-    if (token.kind() != TokenKind::kFace) continue;
+    if (token.kind() != TokenKind::kFace) {
+      if (!token.is_pass()) (token.kind() == TokenKind::kAnd ? has_and : has_or) = true;
+      continue;
+    }
     const Face& face = scene_.faces[token.payload()];
     if (face.unit != last_unit) ++primitive_count_;
     last_unit = face.unit;
     half_spaces_.push_back({face.literal >> 1, face.unit + 1});
   }
+  is_one_group_ = !has_and || !has_or;
   std::sort(half_spaces_.begin(), half_spaces_.end(),
             [](const Used& a, const Used& b) { return a.half_space < b.half_space; });
   size_t kept = 0;

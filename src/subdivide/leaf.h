@@ -24,6 +24,8 @@ class LeafAnalysis {
   bool constant_value() const { return table_ & 1; }
   /// Distinct primitives in the formula.
   uint32_t primitive_count() const { return primitive_count_; }
+  /// All of its literals are in one conjunction, or in one disjunction.
+  bool is_one_group() const { return is_one_group_; }
   /// A disjunction of uncomplemented primitives or faces only (the paper's case 2).
   bool is_plain_union() const;
 
@@ -46,7 +48,7 @@ class LeafAnalysis {
   std::vector<Used> half_spaces_;
   std::vector<Literal> signs_;
   std::vector<Step> steps_;
-  bool has_table_ = false;
+  bool has_table_ = false, is_one_group_ = false;
   uint64_t table_ = 0;
   uint32_t primitive_count_ = 0;
 };

@@ -23,13 +23,16 @@ uint32_t stall_limit(uint32_t literals) {
   return std::max(6u, literals);
 }
 
+/// One conjunction or disjunction, which needs no table, of so many literals costs no more.
+constexpr uint32_t kQuickLiterals = 10;
+
 /// Whether splitting a cell of so many literals saves more than it takes, all counted in visits of
 /// a node by a ray. Each ray saves a part of the literals that it would look at, and makes a visit
-/// and a bit more; beyond a truth table it saves much more, as leaves with one are solved for many
-/// rays at once. The split itself takes so much for each literal of the formula.
-bool pays_off(uint32_t literals, double rays) {
+/// and a bit more; beyond `quick` literals, with which a leaf is solved for many rays at once, it
+/// saves much more. The split itself takes so much for each literal of the formula.
+bool pays_off(uint32_t literals, double rays, uint32_t quick = kTableLiterals) {
   constexpr double kSavedEach = 0.32, kSavedBeyond = 4, kMoreVisits = 1.3, kSplitEach = 120;
-  const uint32_t beyond = std::max(literals, kTableLiterals) - kTableLiterals;
+  const uint32_t beyond = std::max(literals, quick) - quick;
   return rays * (kSavedEach * literals + kSavedBeyond * beyond - kMoreVisits) >
          kSplitEach * literals;
 }
@@ -123,7 +126,7 @@ void Refiner::refine_all(const Cell& cell) {
 CellLink Refiner::refine(const Cell& cell, const OpenCell& open, const Helpers* helpers) {
   CellLink link;
   if (ends(open, link)) return link;
-  if (is_wide(open)) {
+  if (is_wide(open.tokens(), open.depth)) {
     if (const std::optional<CellLink> grid = split_wide(cell, open, helpers)) return *grid;
   }
   constexpr uint32_t kSplits = 3;
@@ -170,7 +173,8 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
     link = decided(analysis_.constant_value());
     return true;
   }
-  const bool simple = is_auto ? !pays_off(analysis_.size(), rays) : simple_enough();
+  const uint32_t quick = analysis_.is_one_group() ? kQuickLiterals : kTableLiterals;
+  const bool simple = is_auto ? !pays_off(analysis_.size(), rays, quick) : simple_enough();
   if (!simple && (!must_end_anyway || settings_.ignore_small))
     across_ = settings_.ignore_small && !small ? Across::kIgnored : Across::kUnknown;
   if (!must_end && !simple) return false;
@@ -262,9 +266,9 @@ CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
 
 /// Whether the cell is worth splitting many times at once. Where small cells end early, each split
 /// has to be looked at.
-bool Refiner::is_wide(const OpenCell& open) const {
-  return open.token_count >= kWide && !has_threshold_ && open.depth < kMostDepth / 2 &&
-         operand_count(open.tokens()) >= kWide;
+bool Refiner::is_wide(std::span<const Token> formula, uint32_t depth) const {
+  return formula.size() >= kWide && !has_threshold_ && depth < kMostDepth / 2 &&
+         operand_count(formula) >= kWide;
 }
 
 /// A loop that helpers share, if there are any.
@@ -443,15 +447,26 @@ bool Refiner::simple_enough() const {
   return analysis_.primitive_count() <= settings_.leaf_size || analysis_.is_plain_union();
 }
 
-RefinerPool::RefinerPool(const Scene& scene, const SubdivideSettings& settings)
-    : scene_(scene), settings_(settings), boxes_(scene), root_{{}, {kNowhere, kNowhere}, 0} {
+RefinerPool::RefinerPool(const Scene& scene, const SubdivideSettings& settings,
+                         const Workers* workers)
+    : scene_(scene),
+      settings_(settings),
+      boxes_(scene, workers),
+      root_{{}, {kNowhere, kNowhere}, 0} {
   open_root();
 }
 
 void RefinerPool::open_root() {
   Refiner& refiner = take();
   CellLink link;
-  if (!scene_.region.is_empty()) {
+  if (scene_.region.is_empty()) {
+    // Nothing is anywhere.
+  } else if (refiner.is_wide(scene_.formula, 0)) {
+    // Nearly all of it is in the region, and its parts will be looked at by all threads.
+    link = refiner.open(
+        {scene_.region, settings_.memory, 0, 0, expanded_size(scene_, scene_.formula), 0},
+        scene_.formula);
+  } else {
     refiner.stats_.classified += scene_.formula.size();
     Formula formula;
     const Truth truth =

@@ -104,7 +104,7 @@ class Refiner {
   CellLink leaf();
   bool has_few_half_spaces(std::span<const Token> formula) const;
   bool simple_enough() const;
-  bool is_wide(const OpenCell& open) const;
+  bool is_wide(std::span<const Token> formula, uint32_t depth) const;
   std::optional<CellLink> split_wide(const Cell& cell, const OpenCell& parent,
                                      const Helpers* helpers);
   std::optional<CellLink> open_parts(const Cell& cell, const OpenCell& parent,
@@ -139,7 +139,7 @@ class Refiner {
 /// All refiners of a tree, and so all its cells.
 class RefinerPool {
  public:
-  RefinerPool(const Scene& scene, const SubdivideSettings& settings);
+  RefinerPool(const Scene& scene, const SubdivideSettings& settings, const Workers* workers);
 
   /// One that nobody uses.
   Refiner& take();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -116,6 +117,32 @@ TEST(UnitBoxes, TellOnlyWhatIsSo) {
   EXPECT_GT(beside, 300u);
   EXPECT_GT(within, 10u);
   EXPECT_GT(balls, 100u);
+}
+
+TEST(UnitBoxes, AreTheSameMadeByManyThreads) {
+  std::string balls;
+  for (int i = 0; i < 10000; ++i)
+    balls += "translate([" + std::to_string(i % 100) + "," + std::to_string(i / 100) +
+             ",0]) sphere(" + std::to_string(0.1 + i % 7 * 0.1) + ");";
+  const Scene scene = lowered_text("union(){" + balls + "}");
+  const Workers workers(4);
+  const UnitBoxes alone(scene), together(scene, &workers);
+  EXPECT_EQ(alone.are_worth_it(1), together.are_worth_it(1));
+  const CellBox cell(Box{{-20, -20, -1}, {10, 10, 1}}, 0);
+  size_t beside = 0;
+  for (size_t i = 0; i < scene.formula.size(); i += UnitBoxes::kBatch) {
+    const std::span<const Token> tokens =
+        std::span<const Token>(scene.formula)
+            .subspan(i, std::min<size_t>(UnitBoxes::kBatch, scene.formula.size() - i));
+    const UnitBoxes::Batch one = alone.look_at(tokens, cell),
+                           other = together.look_at(tokens, cell);
+    EXPECT_EQ(one.beside, other.beside);
+    EXPECT_EQ(one.within, other.within);
+    EXPECT_EQ(one.balls, other.balls);
+    beside += size_t(std::popcount(one.beside));
+  }
+  EXPECT_GT(beside, 1000u);
+  EXPECT_LT(beside, 9900u);
 }
 
 bool value_of(Truth truth, const Scene& scene, const Formula& formula, Vec3 p) {

@@ -42,11 +42,11 @@ std::vector<const Cell*> widen(const CellTree& tree, const Workers& workers,
 
 }  // namespace
 
-CellTree open_cells(const Scene& scene, const SubdivideSettings& settings) {
+CellTree open_cells(const Scene& scene, const SubdivideSettings& settings, const Workers* workers) {
   CellTree tree;
   tree.region = scene.region;
   tree.margin = settings.margin * max_component(scene.region.size());
-  tree.refiner_pool = std::make_shared<RefinerPool>(scene, settings);
+  tree.refiner_pool = std::make_shared<RefinerPool>(scene, settings, workers);
   tree.root = &tree.refiner_pool->root();
   return tree;
 }
@@ -77,8 +77,9 @@ void refine_all(const CellTree& tree, const Workers& workers) {
 }
 
 CellTree subdivide(const Scene& scene, const SubdivideSettings& settings) {
-  CellTree tree = open_cells(scene, settings);
-  refine_all(tree, Workers(settings.threads));
+  const Workers workers(settings.threads);
+  CellTree tree = open_cells(scene, settings, &workers);
+  refine_all(tree, workers);
   return tree;
 }
 

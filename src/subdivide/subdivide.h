@@ -77,7 +77,9 @@ struct SubdivideSettings {
 };
 
 /// A tree of one open cell, to be refined where somebody looks. `scene` must outlive the tree.
-CellTree open_cells(const Scene& scene, const SubdivideSettings& settings);
+/// What is prepared for that is made on all workers, if there are any.
+CellTree open_cells(const Scene& scene, const SubdivideSettings& settings,
+                    const Workers* workers = nullptr);
 
 /// Refines the cells with long formulas, which all who look at the tree meet first, on all threads.
 void refine_top(const CellTree& tree, const Workers& workers);

@@ -1,6 +1,7 @@
 #include "subdivide/unit_boxes.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -65,41 +66,51 @@ HWY_EXPORT(look_at);
 constexpr double kLost = 2e-6;
 constexpr double kSmallCell = 100 * kLost;
 
+/// Units that one thread packs in one go.
+constexpr size_t kUnitsEach = 4096;
+
 }  // namespace
 
-UnitBoxes::UnitBoxes(const Scene& scene)
+UnitBoxes::UnitBoxes(const Scene& scene, const Workers* workers)
     : scene_(scene),
-      region_edge_(scene.region.is_empty() ? 0 : max_component(scene.region.size())) {
+      region_edge_(scene.region.is_empty() ? 0 : max_component(scene.region.size())),
+      entries_(scene.units.size() + 1) {
   static_assert(sizeof(Entry) == 8 * sizeof(float));
-  constexpr float kEverywhere = std::numeric_limits<float>::infinity();
-  constexpr Entry nowhere{{0, 0, 0}, {kEverywhere, kEverywhere, kEverywhere}, kEverywhere, 0};
-  entries_.reserve(scene.units.size() + 1);
-  for (const Unit& unit : scene.units) {
-    entries_.push_back(nowhere);
-    if (unit.face_count == 0) continue;
-    const Literal literal = scene.faces[unit.first_face].literal;
-    const HalfSpace& h = scene.half_spaces[literal >> 1];
-    const bool is_ball =
-        unit.face_count == 1 && h.kind == SurfaceKind::kSphere && (literal & 1) == 0;
-    const double radius = is_ball ? std::sqrt(-h.f.c / h.f.diag.x) : 0;
-    const Vec3 center = is_ball ? h.center : unit.outer.center();
-    const Vec3 half = is_ball ? Vec3{radius, radius, radius} : unit.outer.size() * 0.5;
-    const double lost = kLost * (max_component(abs(center)) + max_component(half) + region_edge_);
-    // What is too large for single precision is everywhere.
-    if (!(lost < 1e15)) continue;
-    Entry& entry = entries_.back();
-    for (int axis = 0; axis < 3; ++axis) {
-      entry.center[axis] = float(center[axis]);
-      entry.half[axis] = float(half[axis] + lost);
+  std::atomic<size_t> balls = 0;
+  for_parts(workers, scene.units.size(), kUnitsEach, [&](size_t first, size_t last, size_t) {
+    size_t found = 0;
+    for (size_t i = first; i < last; ++i) {
+      entries_[i] = entry(scene.units[i]);
+      found += entries_[i].outer_square < kEverywhere;
     }
-    if (is_ball) {
-      ++balls_;
-      const double outer = radius + lost, inner = std::max(radius - lost, 0.0);
-      entry.outer_square = float(outer * outer * (1 + kLost));
-      entry.inner_square = float(inner * inner * (1 - kLost));
-    }
+    balls += found;
+  });
+  balls_ = balls;
+  entries_.back() = Entry();
+}
+
+UnitBoxes::Entry UnitBoxes::entry(const Unit& unit) const {
+  if (unit.face_count == 0) return {};
+  const Literal literal = scene_.faces[unit.first_face].literal;
+  const HalfSpace& h = scene_.half_spaces[literal >> 1];
+  const bool is_ball = unit.face_count == 1 && h.kind == SurfaceKind::kSphere && (literal & 1) == 0;
+  const double radius = is_ball ? std::sqrt(-h.f.c / h.f.diag.x) : 0;
+  const Vec3 center = is_ball ? h.center : unit.outer.center();
+  const Vec3 half = is_ball ? Vec3{radius, radius, radius} : unit.outer.size() * 0.5;
+  const double lost = kLost * (max_component(abs(center)) + max_component(half) + region_edge_);
+  // What is too large for single precision is everywhere.
+  if (!(lost < 1e15)) return {};
+  Entry entry;
+  for (int axis = 0; axis < 3; ++axis) {
+    entry.center[axis] = float(center[axis]);
+    entry.half[axis] = float(half[axis] + lost);
   }
-  entries_.push_back(nowhere);
+  if (is_ball) {
+    const double outer = radius + lost, inner = std::max(radius - lost, 0.0);
+    entry.outer_square = float(outer * outer * (1 + kLost));
+    entry.inner_square = float(inner * inner * (1 - kLost));
+  }
+  return entry;
 }
 
 UnitBoxes::Batch UnitBoxes::look_at(std::span<const Token> tokens, const CellBox& cell) const {

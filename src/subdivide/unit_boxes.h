@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
-#include <vector>
 
+#include "base/uninitialized.h"
+#include "base/workers.h"
 #include "lower/scene.h"
 #include "subdivide/classify.h"
 
@@ -16,7 +18,8 @@ class UnitBoxes {
   /// Tokens that are looked at together.
   static constexpr uint32_t kBatch = 16;
 
-  explicit UnitBoxes(const Scene& scene);
+  /// Made on all workers, if there are any.
+  explicit UnitBoxes(const Scene& scene, const Workers* workers = nullptr);
 
   /// What is known of the primitives of some tokens, one bit a token; none for groups.
   struct Batch {
@@ -36,17 +39,21 @@ class UnitBoxes {
   }
 
  private:
+  static constexpr float kEverywhere = std::numeric_limits<float>::infinity();
   /// Single precision, what holds the primitive rounded up and what it holds rounded down by more
   /// than all arithmetic with it can lose.
   struct Entry {
-    float center[3], half[3];  ///< a box that holds it
-    float outer_square;        ///< squared radius of a ball about the centre that holds it
-    float inner_square;        ///< and of one that it holds; 0: none
+    float center[3] = {};  ///< a box that holds it
+    float half[3] = {kEverywhere, kEverywhere, kEverywhere};
+    float outer_square = kEverywhere;  ///< squared radius of a ball about the centre that holds it
+    float inner_square = 0;            ///< and of one that it holds; 0: none
   };
+  Entry entry(const Unit& unit) const;
+
   const Scene& scene_;
   double region_edge_;
   size_t balls_ = 0;
-  std::vector<Entry> entries_;  ///< by unit; then one that is everywhere
+  UninitializedVector<Entry> entries_;  ///< by unit; then one that is everywhere
 };
 
 }  // namespace whittle

@@ -74,23 +74,35 @@ Reach reach_of(const Scene& scene, std::span<const Token> operand) {
   }
 }
 
-/// The outermost group that is one, and no left-over of a group that lost all but one operand.
-std::span<const Token> without_passes(std::span<const Token> formula) {
-  while (formula[0].is_pass()) formula = formula.subspan(1);
+/// The outermost group of several operands, if there is one: not a left-over of a group that lost
+/// all but one, nor a group around one other.
+std::span<const Token> outermost_group(std::span<const Token> formula) {
+  const auto is_around_one = [](std::span<const Token> group) {
+    return group[0].is_group() && group.size() > 1 && group[1].is_group() && !group[1].is_pass() &&
+           group[1].payload() + 1 == group.size();
+  };
+  while (formula[0].is_pass() || is_around_one(formula)) formula = formula.subspan(1);
   return formula;
 }
 
-std::vector<Operand> operands_of(std::span<const Token> formula) {
-  std::vector<Operand> operands;
+/// Calls visit(operand) for those of a group, in their order.
+template <class Visit>
+void for_operands(std::span<const Token> formula, const Visit& visit) {
   for (uint32_t i = 1; i < formula.size();) {
     if (formula[i].is_pass()) {
       ++i;
       continue;
     }
     const uint32_t count = formula[i].is_group() ? formula[i].payload() : 1;
-    operands.push_back({i, count});
+    visit(Operand{i, count});
     i += count;
   }
+}
+
+std::vector<Operand> operands_of(std::span<const Token> formula) {
+  std::vector<Operand> operands;
+  operands.reserve(formula.size());
+  for_operands(formula, [&](Operand operand) { operands.push_back(operand); });
   return operands;
 }
 
@@ -99,9 +111,19 @@ struct Range {
   uint32_t first, last;
 };
 Range range_of(const std::vector<double>& cuts, double lo, double hi) {
-  const auto inner_begin = cuts.begin() + 1, inner_end = cuts.end() - 1;
-  return {uint32_t(std::lower_bound(inner_begin, inner_end, lo) - inner_begin),
-          uint32_t(std::upper_bound(inner_begin, inner_end, hi) - inner_begin)};
+  // The cuts are all but equally far apart, so that the parts are next to where they would be then.
+  const size_t last_part = cuts.size() - 2;
+  const double each = double(last_part + 1) / (cuts.back() - cuts.front());
+  const auto guess = [&](double x) {
+    const double part = (x - cuts.front()) * each;
+    return part > 0 ? size_t(std::min(part, double(last_part))) : 0;
+  };
+  size_t first = guess(lo), last = guess(hi);
+  while (first > 0 && cuts[first] >= lo) --first;
+  while (first < last_part && cuts[first + 1] < lo) ++first;
+  while (last > 0 && cuts[last] > hi) --last;
+  while (last < last_part && cuts[last + 1] <= hi) ++last;
+  return {uint32_t(first), uint32_t(last)};
 }
 
 /// What some operands in a row give to the parts: numbers of operands, part by part.
@@ -146,13 +168,15 @@ SplitGrid make_grid(const Box& box, int splits, SplitRule rule, uint32_t depth) 
 }
 
 size_t operand_count(std::span<const Token> formula) {
-  formula = without_passes(formula);
-  return formula[0].is_group() ? operands_of(formula).size() : 0;
+  formula = outermost_group(formula);
+  size_t count = 0;
+  if (formula[0].is_group()) for_operands(formula, [&](Operand) { ++count; });
+  return count;
 }
 
 std::vector<Formula> deal_operands(const Scene& scene, std::span<const Token> formula,
                                    const SplitGrid& grid, double margin, const Loop& loop) {
-  formula = without_passes(formula);
+  formula = outermost_group(formula);
   const TokenKind kind = formula[0].kind();
   const std::vector<Operand> operands = operands_of(formula);
   const size_t parts = grid.size(), chunks = (operands.size() + kChunk - 1) / kChunk;
@@ -167,6 +191,7 @@ std::vector<Formula> deal_operands(const Scene& scene, std::span<const Token> fo
       Dealt& mine = dealt[chunk];
       mine.first.assign(parts + 1, 0);
       ranges.clear();
+      size_t given = 0;
       const auto for_parts_of = [&](const std::array<Range, 3>& r, auto&& visit) {
         const size_t nx = grid.cuts[0].size() - 1, ny = grid.cuts[1].size() - 1;
         for (size_t z = r[2].first; z <= r[2].last; ++z)
@@ -186,11 +211,13 @@ std::vector<Formula> deal_operands(const Scene& scene, std::span<const Token> fo
           if (r[size_t(axis)].first > r[size_t(axis)].last) r[size_t(axis)] = {1, 0};
           count *= r[size_t(axis)].last + 1 - r[size_t(axis)].first;
         }
-        total += count;
+        given += count;
         ranges.push_back(r);
+        if (given > kMostPartsEach * operands.size()) break;
         for_parts_of(r, [&](size_t part) { ++mine.first[part + 1]; });
-        if (too_many()) return;
       }
+      total += given;
+      if (too_many()) return;
       for (size_t part = 0; part < parts; ++part) mine.first[part + 1] += mine.first[part];
       mine.operands.resize(mine.first[parts]);
       std::vector<uint32_t> next(mine.first.begin(), mine.first.end() - 1);

@@ -147,7 +147,7 @@ Status Renderer::State::make_tracer(const Camera& camera) {
     subdivision.is_small = PixelThreshold(camera, settings.pixel_threshold);
   const bool is_raster = settings.backend == Backend::kVulkanRaster;
   if (is_raster) subdivision.margin = cell_margin(*device);
-  cells = open_cells(scene, subdivision);
+  cells = open_cells(scene, subdivision, &workers);
   cells_camera = camera;
   if (refine == Refine::kAll)
     refine_all(*cells, workers);

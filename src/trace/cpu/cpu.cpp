@@ -12,9 +12,10 @@
 namespace whittle {
 namespace {
 
-constexpr int kTileWidth = 8, kTileHeight = 8;  ///< pixels; a tile's rays walk together
-constexpr int kBlock = 32;                      ///< pixels a task; small enough to balance
-constexpr size_t kProbeChunk = 256;             ///< positions a task
+constexpr int kTileWidth = 16, kTileHeight = 16;  ///< pixels; a tile's rays walk together
+constexpr int kBlock = 32;                        ///< pixels a task; small enough to balance
+constexpr size_t kProbeChunk = 256;               ///< positions a task
+constexpr size_t kProbeRays = 64;  ///< that walk together: they are not all next to one another
 static_assert(kTileWidth * kTileHeight == kTileRays);
 
 /// Every other bit of `i`: a number along the Z-order curve is x in the even bits, y in the odd.
@@ -24,7 +25,8 @@ constexpr uint32_t even_bits(size_t i) {
   return result;
 }
 
-/// The pixels of a tile in Z order, so that 2, 4 or 8 in a row are a compact patch.
+/// The pixels of a tile in Z order, so that those of a packet, or of a part of the tile, are a
+/// compact patch.
 struct TileOrder {
   std::array<uint32_t, kTileRays> x, y;
   std::array<PixelPosition, kTileRays> middle;
@@ -50,7 +52,7 @@ constexpr InOrder kInOrder;
 class CpuTracerImpl final : public CpuTracer {
  public:
   CpuTracerImpl(const Scene& scene, const CellTree& tree, int threads)
-      : lanes_(scene, tree), workers_(threads), scratches_(workers_) {}
+      : workers_(threads), lanes_(scene, tree, &workers_), scratches_(workers_) {}
 
   const char* name() const override { return "cpu"; }
 
@@ -86,8 +88,8 @@ class CpuTracerImpl final : public CpuTracer {
     workers_.for_parts(
         positions.size(), kProbeChunk, [&](size_t first, size_t last, size_t worker) {
           LaneScratch& scratch = scratches_.of(worker, lanes_);
-          for (size_t i = first; i < last; i += kTileRays)
-            trace_lanes(lanes_, camera, positions.subspan(i, std::min(kTileRays, last - i)),
+          for (size_t i = first; i < last; i += kProbeRays)
+            trace_lanes(lanes_, camera, positions.subspan(i, std::min(kProbeRays, last - i)),
                         kInOrder.place.data(), &hits[i], scratch);
         });
   }
@@ -175,8 +177,8 @@ class CpuTracerImpl final : public CpuTracer {
     return {region.lo + lanes_.scene.origin, region.hi + lanes_.scene.origin};
   }
 
-  const LaneScene lanes_;
   Workers workers_;
+  const LaneScene lanes_;
   PerWorker<LaneScratch> scratches_;
   std::vector<TileRecord> records_;  ///< by tile, of the picture that was recorded
 };

@@ -18,7 +18,7 @@ namespace whittle {
 struct TraceStats {
   uint64_t rays = 0;
   uint64_t cells = 0;          ///< cells visited, nodes and leaves; where rays walk together, once
-                               ///< for each that is still on its way
+                               ///< for each that may meet them
   uint64_t leaves = 0;         ///< leaves solved
   uint64_t literals = 0;       ///< half-spaces intersected
   uint64_t disagreements = 0;  ///< neighbouring cells that disagree on a point between them: none

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -231,17 +232,57 @@ TEST(Cpu, WhatWasRecordedIsSeenAgain) {
     const Scene scene = *lower(model);
     const CellTree cells = subdivide(scene, {});
     const auto tracer = make_cpu_tracer(scene, cells);
-    for (const Camera& camera : cameras_for(model, 91, 70)) {
-      const Frame rendered = tracer->render(camera, {}), recorded = tracer->record(camera);
-      const uint64_t visits = tracer->stats().cells;
-      const Frame replayed = tracer->replay(camera);
-      EXPECT_EQ(tracer->stats().cells, visits) << "no ray walks";
-      for (const Frame* frame : {&recorded, &replayed})
-        EXPECT_EQ(std::memcmp(frame->hits.data(), rendered.hits.data(),
-                              rendered.hits.size() * sizeof(Hit)),
-                  0);
-    }
+    for (const Camera& camera : cameras_for(model, 91, 70))
+      for_every_instruction_set([&] {
+        const Frame rendered = tracer->render(camera, {}), recorded = tracer->record(camera);
+        const uint64_t visits = tracer->stats().cells;
+        const Frame replayed = tracer->replay(camera);
+        EXPECT_EQ(tracer->stats().cells, visits) << "no ray walks";
+        for (const Frame* frame : {&recorded, &replayed})
+          EXPECT_EQ(std::memcmp(frame->hits.data(), rendered.hits.data(),
+                                rendered.hits.size() * sizeof(Hit)),
+                    0);
+      });
   }
+}
+
+/// Whether the ray passes the box.
+bool meets(const Ray& ray, const Box& box) {
+  double t0 = ray.t_min, t1 = kInfinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = (box.lo[axis] - ray.origin[axis]) / ray.direction[axis],
+                 b = (box.hi[axis] - ray.origin[axis]) / ray.direction[axis];
+    t0 = std::max(t0, std::min(a, b)), t1 = std::min(t1, std::max(a, b));
+  }
+  return t0 <= t1;
+}
+
+TEST(Cpu, NoCellIsRefinedThatNoRayMeets) {
+  // Cells of a few pixels, so that rays next to one another go many ways.
+  std::string text = "difference() { cube(40);";
+  for (int i = 0; i < 600; ++i)
+    text += "translate([" + std::to_string(i * 37 % 401 * 0.1) + "," +
+            std::to_string(i * 53 % 397 * 0.1) + "," + std::to_string(i * 71 % 389 * 0.1) +
+            "]) sphere(1.1);";
+  const Model model = model_of(text + "}");
+  const Scene scene = *lower(model);
+  size_t refined = 0;
+  for (const Camera& camera : cameras_for(model, 40, 30)) {
+    const CellTree cells = open_cells(scene, {});
+    make_cpu_tracer(scene, cells)->render(camera, {});
+    std::vector<Ray> rays;
+    for (int y = 0; y < camera.height; ++y)
+      for (int x = 0; x < camera.width; ++x) rays.push_back(camera.ray(x + 0.5, y + 0.5));
+    for_each_leaf(cells, [&](CellLink link, const Box& box) {
+      if (link.kind() < CellKind::kConjunction || link.kind() == CellKind::kOpen) return;
+      ++refined;
+      const double more = 1e-9 * max_component(scene.region.size());
+      const Box world{box.lo + scene.origin - Vec3{more, more, more},
+                      box.hi + scene.origin + Vec3{more, more, more}};
+      EXPECT_TRUE(std::ranges::any_of(rays, [&](const Ray& ray) { return meets(ray, world); }));
+    });
+  }
+  EXPECT_GT(refined, 100u);
 }
 
 TEST(Cpu, ARayMayRunInAPlaneFromItsEyeOn) {

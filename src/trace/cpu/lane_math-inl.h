@@ -6,6 +6,7 @@
 #define WHITTLE_LANE_MATH_INL_H
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "base/vec.h"

@@ -18,8 +18,9 @@ namespace whittle {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Where a cell's edge is shorter than this many widths of the tile, its packets go on alone.
-constexpr double kAlone = 0.5;
+/// Where a cell's edge is shorter than this many widths of the tile, what it is to its rays is
+/// worked out for each.
+constexpr double kExact = 1;
 
 /// A cell by the planes where rays of one octant enter and leave it.
 struct Planes {
@@ -37,13 +38,16 @@ struct Bounds {
 /// Walks a tile through the cells, front to back.
 class Walk {
  public:
-  Walk(const LaneScene& scene, Tile& tile, LaneScratch& scratch, TileRecord* record)
+  /// What is recorded counts the packets from `first_packet` on.
+  Walk(const LaneScene& scene, Tile& tile, LaneScratch& scratch, size_t first_packet,
+       TileRecord* record)
       : scene_(scene),
         tile_(tile),
         scratch_(scratch),
         leaves_(scene, tile, scratch),
+        first_packet_(first_packet),
         record_(record),
-        alone_(kAlone * tile.width) {}
+        exact_(kExact * tile.width) {}
 
   /// Rays that turn different sides to the cells meet them in different order.
   void all() {
@@ -130,59 +134,136 @@ class Walk {
         tile_.passes(packet, 2, cell.leave[2]));
   }
 
+  /// A cell, and the packets that may meet it.
+  struct Place {
+    Planes planes;
+    double t0, t1;  ///< when the first of them enters, and the last leaves
+    const Cell* cell;
+    uint64_t packets;
+    uint32_t rays;  ///< of those packets, that may meet it
+  };
+
   /// All running rays. What is decided for them here holds for each: rounding is monotonic, so the
   /// bounds of the results are the results of the bounds.
   void together(const Planes& region) {
-    struct Later {
-      Planes planes;
-      double t0, t1;
-      const Cell* cell;
-    };
-    Later later[kMostDepth];
+    Place later[kMostDepth];
     uint32_t waiting = 0;
     const Bounds b = bounds(region);
-    Later now{region, b.t0, b.t1, scene_.tree.root};
+    Place now{region, b.t0, b.t1, scene_.tree.root, running_packets_, running_count_};
     while (true) {
-      const CellLink cell = link(*now.cell);
-      scratch_.stats.cells += running_count_;
+      now.packets &= running_packets_;
+      // The bounds meet cells that no ray does, and to refine one takes long.
+      CellLink cell = now.cell->link();
+      if (cell.kind() == CellKind::kOpen && is_met(now))
+        cell = scratch_.refiner->refined(*now.cell);
+      if (now.packets == 0 || cell.kind() == CellKind::kOpen) {
+        if (waiting == 0) return;
+        now = later[--waiting];
+        continue;
+      }
       if (cell.kind() == CellKind::kNode) {
+        scratch_.stats.cells += std::min(now.rays, running_count_);
         const int axis = cell.axis();
-        const double split = now.cell->split;
-        const Cell* const near_cell = cell.children() + side_[axis];
-        const Cell* const far_cell = cell.children() + 1 - side_[axis];
-        const double low = split * sign_[axis] - b.high_origin[axis];
-        const double high = split * sign_[axis] - b.low_origin[axis];
-        const double first = low * (low < 0 ? b.high_inverse : b.low_inverse)[axis];
-        const double last = high * (high < 0 ? b.low_inverse : b.high_inverse)[axis];
-        if (!(first < now.t1)) {
-          now.planes.leave[axis] = split;
-          now.cell = near_cell;
+        const double width = std::fabs(now.planes.leave[axis] - now.planes.enter[axis]);
+        if (width >= exact_) {
+          if (both_parts(b, cell, now, later[waiting])) ++waiting;
           continue;
         }
-        if (!(last > now.t0)) {
-          now.planes.enter[axis] = split;
-          now.cell = far_cell;
+        if (!std::has_single_bit(now.packets)) {
+          if (both_parts_of_packets(cell, now, later[waiting])) ++waiting;
           continue;
         }
-        if (std::fabs(now.planes.leave[axis] - now.planes.enter[axis]) >= alone_) {
-          Later& far = later[waiting++];
-          far = now;
-          far.cell = far_cell;
-          far.planes.enter[axis] = split;
-          far.t0 = std::max(far.t0, first);
-          now.planes.leave[axis] = split;
-          now.t1 = std::min(now.t1, last);
-          now.cell = near_cell;
-          continue;
-        }
-        for (uint64_t left = running_packets_; left != 0; left &= left - 1)
-          alone(size_t(std::countr_zero(left)), now.cell, now.planes);
+        alone(size_t(std::countr_zero(now.packets)), now.cell, now.planes);
       } else {
-        leaf(cell, now.planes);
+        scratch_.stats.cells += std::min(now.rays, running_count_);
+        leaf(cell, now.planes, now.packets);
       }
       if (waiting == 0 || running_packets_ == 0) return;
       now = later[--waiting];
     }
+  }
+
+  /// Goes on to the nearer part that some ray may meet. If they may meet both, the farther one is
+  /// for later.
+  HWY_INLINE bool both_parts(const Bounds& b, CellLink cell, Place& now, Place& far) const {
+    const int axis = cell.axis();
+    const double split = now.cell->split;
+    const Cell* const near_cell = cell.children() + side_[axis];
+    const Cell* const far_cell = cell.children() + 1 - side_[axis];
+    const double low = split * sign_[axis] - b.high_origin[axis];
+    const double high = split * sign_[axis] - b.low_origin[axis];
+    const double first = low * (low < 0 ? b.high_inverse : b.low_inverse)[axis];
+    const double last = high * (high < 0 ? b.low_inverse : b.high_inverse)[axis];
+    if (!(first < now.t1)) {
+      now.planes.leave[axis] = split;
+      now.cell = near_cell;
+      return false;
+    }
+    if (!(last > now.t0)) {
+      now.planes.enter[axis] = split;
+      now.cell = far_cell;
+      return false;
+    }
+    fetch(*far_cell);
+    far = now;
+    far.cell = far_cell;
+    far.planes.enter[axis] = split;
+    far.t0 = std::max(far.t0, first);
+    now.planes.leave[axis] = split;
+    now.t1 = std::min(now.t1, last);
+    now.cell = near_cell;
+    return true;
+  }
+
+  /// The same, by what each packet meets.
+  HWY_INLINE bool both_parts_of_packets(CellLink cell, Place& now, Place& far) const {
+    const int axis = cell.axis();
+    const double split = now.cell->split;
+    uint64_t near_packets = 0, far_packets = 0;
+    uint32_t near_rays = 0, far_rays = 0;
+    for (uint64_t left = now.packets; left != 0; left &= left - 1) {
+      const auto p = size_t(std::countr_zero(left));
+      Real t0, t1;
+      way_through(now.planes, p, t0, t1);
+      const Real t = tile_.passes(p, axis, split);
+      const uint32_t near_lanes = bits(t0 < hn::Min(t1, t)) & running_[p],
+                     far_lanes = bits(hn::Max(t0, t) < t1) & running_[p];
+      near_packets |= uint64_t(near_lanes != 0) << p, far_packets |= uint64_t(far_lanes != 0) << p;
+      near_rays += uint32_t(std::popcount(near_lanes));
+      far_rays += uint32_t(std::popcount(far_lanes));
+    }
+    const Cell* const near_cell = cell.children() + side_[axis];
+    const Cell* const far_cell = cell.children() + 1 - side_[axis];
+    const bool both = near_packets != 0 && far_packets != 0;
+    if (both) fetch(*far_cell);
+    if (far_packets != 0) {
+      Place& to = both ? far : now;
+      to = now;
+      to.cell = far_cell;
+      to.planes.enter[axis] = split;
+      to.packets = far_packets, to.rays = far_rays;
+      if (!both) return false;
+    }
+    now.cell = near_cell;
+    now.planes.leave[axis] = split;
+    now.packets = near_packets, now.rays = near_rays;
+    return both;
+  }
+
+  /// What a cell leads to is wanted soon.
+  static HWY_INLINE void fetch(const Cell& cell) {
+    hwy::Prefetch(static_cast<const char*>(cell.link().target()));
+  }
+
+  /// Whether some running ray passes the cell.
+  bool is_met(const Place& place) const {
+    for (uint64_t left = place.packets; left != 0; left &= left - 1) {
+      const auto p = size_t(std::countr_zero(left));
+      Real t0, t1;
+      way_through(place.planes, p, t0, t1);
+      if ((bits(t0 < t1) & running_[p]) != 0) return true;
+    }
+    return false;
   }
 
   /// What a cell is, which nobody may have asked before.
@@ -191,11 +272,17 @@ class Walk {
     return HWY_LIKELY(link.kind() != CellKind::kOpen) ? link : scratch_.refiner->refined(cell);
   }
 
-  void leaf(CellLink cell, const Planes& planes) {
+  void leaf(CellLink cell, const Planes& planes, uint64_t packets) {
     Visitors& visitors = leaves_.visitors;
     visitors.count = 0;
+    if (cell.kind() >= CellKind::kConjunction) {
+      // It arrives while is worked out who passes.
+      const char* const block = static_cast<const char*>(cell.target());
+      hwy::Prefetch(block);
+      hwy::Prefetch(block + 64);
+    }
     const uint32_t nothing_new = cell.kind() == CellKind::kEmpty ? ~0u : 0;
-    for (uint64_t left = running_packets_; left != 0; left &= left - 1) {
+    for (uint64_t left = packets; left != 0; left &= left - 1) {
       const auto p = size_t(std::countr_zero(left));
       // Who knows that it is in empty space learns nothing in an empty cell.
       if ((running_[p] & ~(nothing_new & tile_.known[p] & ~uint32_t(tile_.solid[p]))) == 0)
@@ -203,8 +290,12 @@ class Walk {
       Real t0, t1;
       way_through(planes, p, t0, t1);
       visitors.add(p, bits(t0 < t1) & running_[p], t0, t1);
+      if (visitors.count == kGroup) {
+        pass(cell);
+        visitors.count = 0;
+      }
     }
-    pass(cell);
+    if (visitors.count != 0) pass(cell);
   }
 
   /// Takes the visitors through a cell that is no node.
@@ -223,7 +314,7 @@ class Walk {
       const uint32_t packet = visitors.packet[i];
       LeafRecord& r = record_->emplace_back();
       r.leaf = cell;
-      r.packet = packet;
+      r.packet = uint32_t(first_packet_) + packet;
       r.lanes = visitors.lanes[i];
       r.known = tile_.known[packet], r.solid = tile_.solid[packet];
       std::copy_n(visitors.t0 + i * Tile::lanes(), Tile::lanes(), r.t0);
@@ -232,7 +323,7 @@ class Walk {
   }
   void keep_hits(size_t from) {
     for (size_t i = from; i < record_->size(); ++i)
-      (*record_)[i].lanes &= tile_.hit[(*record_)[i].packet];
+      (*record_)[i].lanes &= tile_.hit[(*record_)[i].packet - first_packet_];
     const auto is_empty = [](const LeafRecord& r) { return r.lanes == 0; };
     record_->erase(std::remove_if(record_->begin() + ptrdiff_t(from), record_->end(), is_empty),
                    record_->end());
@@ -259,6 +350,7 @@ class Walk {
     Real t0, t1;
     way_through(planes, packet, t0, t1);
     t0 = L::select(mask_of(running_[packet]), t0, never);
+    if (hn::AllFalse(D(), t0 < t1)) return;
     while (true) {
       const CellLink cell = link(*at);
       const Bool active = t0 < t1;
@@ -276,6 +368,7 @@ class Walk {
         } else {
           Later& far = later[waiting++];
           far.cell = far_cell;
+          fetch(*far_cell);
           hn::StoreU(L::select(wants_far, hn::Max(t, t0), never), D(), far.t0);
           hn::StoreU(t1, D(), far.t1);
           at = near_cell;
@@ -303,8 +396,9 @@ class Walk {
   Tile& tile_;
   LaneScratch& scratch_;
   LeavesInLanes leaves_;
+  size_t first_packet_;
   TileRecord* record_;  ///< or none
-  double alone_;
+  double exact_;
 
   uint32_t side_[3] = {};  ///< the nearer child
   double sign_[3] = {};
@@ -313,37 +407,54 @@ class Walk {
   uint32_t running_count_ = 0;
 };
 
+/// Calls visit(positions, places, first packet) for the tiles that some rays are cut into.
+template <class Visit>
+void for_tiles(std::span<const PixelPosition> positions, const uint32_t* places,
+               const Visit& visit) {
+  for (size_t first = 0; first < positions.size(); first += Tile::most_rays())
+    visit(positions.subspan(first, std::min(Tile::most_rays(), positions.size() - first)),
+          places + first, first / Tile::lanes());
+}
+
 void trace_positions(const LaneScene& scene, const Camera& camera,
-                     std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
-                     LaneScratch& scratch, TileRecord* record) {
-  Tile tile;
-  scratch.stats.rays += positions.size();
-  tile.make_rays(scene, camera, positions);
-  Walk(scene, tile, scratch, record).all();
-  tile.write(scene, places, hits);
+                     std::span<const PixelPosition> all_positions, const uint32_t* all_places,
+                     Hit* hits, LaneScratch& scratch, TileRecord* record) {
+  scratch.stats.rays += all_positions.size();
+  for_tiles(all_positions, all_places, [&](auto positions, auto places, size_t first_packet) {
+    Tile tile;
+    tile.make_rays(scene, camera, positions);
+    Walk(scene, tile, scratch, first_packet, record).all();
+    tile.write(scene, places, hits);
+  });
 }
 
 void retrace_positions(const LaneScene& scene, const Camera& camera,
-                       std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
-                       LaneScratch& scratch, const TileRecord& record) {
-  Tile tile;
-  scratch.stats.rays += positions.size();
-  tile.make_rays(scene, camera, positions);
-  LeavesInLanes leaves(scene, tile, scratch);
-  for (size_t i = 0; i < record.size();) {
-    // As many packets at once as passed the leaf at once.
-    const size_t first = i;
-    leaves.visitors.count = 0;
-    do {
-      const LeafRecord& r = record[i];
-      tile.known[r.packet] = uint8_t(r.known), tile.solid[r.packet] = uint8_t(r.solid);
-      leaves.visitors.add(r.packet, r.lanes, hn::Load(D(), r.t0), hn::Load(D(), r.t1));
-      ++i;
-    } while (i < record.size() && record[i].leaf.bits() == record[first].leaf.bits() &&
-             record[i].packet > record[i - 1].packet);
-    leaves.pass(record[first].leaf);
-  }
-  tile.write(scene, places, hits);
+                       std::span<const PixelPosition> all_positions, const uint32_t* all_places,
+                       Hit* hits, LaneScratch& scratch, const TileRecord& record) {
+  scratch.stats.rays += all_positions.size();
+  size_t next = 0;
+  for_tiles(all_positions, all_places, [&](auto positions, auto places, size_t first_packet) {
+    Tile tile;
+    tile.make_rays(scene, camera, positions);
+    LeavesInLanes leaves(scene, tile, scratch);
+    const size_t end_packet = first_packet + tile.packets;
+    while (next < record.size() && record[next].packet < end_packet) {
+      // As many packets at once as passed the leaf at once.
+      const size_t first = next;
+      leaves.visitors.count = 0;
+      do {
+        const LeafRecord& r = record[next];
+        const size_t packet = r.packet - first_packet;
+        tile.known[packet] = uint8_t(r.known), tile.solid[packet] = uint8_t(r.solid);
+        leaves.visitors.add(packet, r.lanes, hn::Load(D(), r.t0), hn::Load(D(), r.t1));
+        ++next;
+      } while (next < record.size() && record[next].leaf.bits() == record[first].leaf.bits() &&
+               record[next].packet > record[next - 1].packet && record[next].packet < end_packet &&
+               leaves.visitors.count < kGroup);
+      leaves.pass(record[first].leaf);
+    }
+    tile.write(scene, places, hits);
+  });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/uninitialized.h"
 #include "subdivide/refine.h"
 #include "trace/cpu/cpu.h"
 #include "trace/cpu/solve.h"
@@ -16,6 +17,7 @@ namespace whittle {
 enum class AlongKind : uint64_t {
   kPlane,
   kSphere,
+  kSmallSphere,
   kDiagonal,  ///< neither off nor b: ellipsoids and cylinders along the axes
   kQuadric,
   kSmallQuadric
@@ -31,24 +33,26 @@ struct alignas(64) LaneHalfSpace {
 
 /// A scene and its cells, prepared for rays. Both must outlive it.
 struct LaneScene {
-  LaneScene(const Scene& scene, const CellTree& tree);
+  /// Made on all workers, if there are any.
+  LaneScene(const Scene& scene, const CellTree& tree, const Workers* workers = nullptr);
 
   const Scene& scene;
   const CellTree& tree;
-  double edge;                             ///< the longest of the region
-  double together;                         ///< crossings closer than this happen together
-  Box clip;                                ///< rays are cut to it: the region and half the margin
-  std::vector<LaneHalfSpace> half_spaces;  ///< by number
+  double edge;      ///< the longest of the region
+  double together;  ///< crossings closer than this happen together
+  Box clip;         ///< rays are cut to it: the region and half the margin
+  UninitializedVector<LaneHalfSpace> half_spaces;  ///< by number
   /// False: every ray is solved by itself, by LeafSolver, whose answers lanes must have. For tests.
   bool solves_in_lanes = true;
 };
 
 inline constexpr size_t kMaxLanes = 8;
-inline constexpr size_t kTileRays = 64;  ///< rays that walk together
+inline constexpr size_t kTileRays = 256;  ///< rays that walk together, at most
+inline constexpr size_t kGroupRays = 64;  ///< of them, that are solved together, at most
 
-/// f of one half-space along the rays of a tile.
-struct alignas(64) TileAlong {
-  double a[kTileRays], h[kTileRays], k[kTileRays], about[kTileRays];
+/// f of one half-space along the rays of a group.
+struct alignas(64) GroupAlong {
+  double a[kGroupRays], h[kGroupRays], k[kGroupRays], about[kGroupRays];
 };
 
 /// What one thread needs besides the scene and the cells.
@@ -58,8 +62,8 @@ struct LaneScratch {
   RefinerLease refiner;
   LeafSolver solver;
   // Per literal of the leaf at hand.
-  std::vector<LaneSigns> signs;  ///< one for each packet
-  std::vector<TileAlong> along;
+  std::vector<LaneSigns> signs;  ///< one for each packet of a group
+  std::vector<GroupAlong> along;
   std::vector<LiteralOnRay> on_ray;  ///< of one ray
   TraceStats stats;
 };

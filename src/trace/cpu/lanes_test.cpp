@@ -67,6 +67,30 @@ TEST(Lanes, SolveLeavesAsLeafSolverDoes) {
   EXPECT_GT(hit, 20000u);
 }
 
+TEST(Lanes, SolveLongConjunctionsAndDisjunctionsAsLeafSolverDoes) {
+  // Leaves of 7 literals and more, of one group, and without a table: around balls that are cut
+  // out, or left, in cells as large as they.
+  std::string balls;
+  for (int i = 0; i < 60; ++i)
+    balls += "translate([" + std::to_string(i * 7 % 20) + "," + std::to_string(i * 11 % 19) + "," +
+             std::to_string(i * 13 % 17) + "]) sphere(3.7);";
+  for (const std::string& text :
+       {"difference() { cube(20); " + balls + "}", "union() {" + balls + "}"}) {
+    const Model model = model_of(text);
+    const Scene scene = *lower(model);
+    for (const uint32_t leaf_size : {10, 16, 24}) {
+      SubdivideSettings settings;
+      settings.leaf_size = leaf_size;
+      const SubdivideStats stats = statistics_of(subdivide(scene, settings));
+      size_t longer = 0;
+      for (size_t n = kTableLiterals + 1; n < stats.leaves_by_size.size(); ++n)
+        longer += stats.leaves_by_size[n];
+      EXPECT_GT(longer, 5u);
+      EXPECT_GT(expect_same(scene, settings, cameras_for(model, 64, 48)), 2000u);
+    }
+  }
+}
+
 /// Parallel rays in one row of pixels, from `from` on along `row`.
 Camera row_of_rays(Vec3 from, Vec3 row, Vec3 direction, double length) {
   Camera camera;

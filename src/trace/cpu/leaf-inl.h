@@ -21,12 +21,19 @@ namespace {
 /// of the region's longest edge.
 constexpr double kAhead = 1e-9;
 
+/// Leaves of no more literals than this are solved for all lanes at once, but for jump programs.
+constexpr size_t kLaneLiterals = 16;
+static_assert(kLaneLiterals >= kTableLiterals);
+
+/// Packets that are solved together; more only fill the nearest cache.
+constexpr size_t kGroup = kGroupRays / kMaxLanes;
+
 /// Packets that pass a cell, and between which t.
 struct Visitors {
   size_t count = 0;
-  uint32_t packet[kMostPackets];
-  uint32_t lanes[kMostPackets];  ///< of the packet, a bit each
-  alignas(64) double t0[kTileRays], t1[kTileRays];
+  uint32_t packet[kGroup];
+  uint32_t lanes[kGroup];  ///< of the packet, a bit each
+  alignas(64) double t0[kGroupRays], t1[kGroupRays];
 
   /// Without any lanes: nothing.
   HWY_INLINE void add(size_t number, uint32_t passing, Real start, Real end) {
@@ -72,7 +79,15 @@ class LeavesInLanes {
   template <AlongKind kKind>
   uint32_t look_at(const LeafLiteral& literal, size_t number, uint32_t settles, uint32_t settling);
   void find_roots(size_t literals);
-  uint32_t solve_in_lanes(const Leaf& leaf, std::span<const LeafLiteral> literals, size_t visitor);
+  /// Conjunctions and disjunctions without a table. By itself, or what is done far more often would
+  /// be a twentieth slower.
+  HWY_NOINLINE void solve_long(CellKind kind, const Leaf& leaf) {
+    find_roots(leaf.literal_count);
+    for (size_t w = 0; w < waiting_count_; ++w)
+      open_[waiting_[w]] = solve_in_lanes<false>(kind, leaf, waiting_[w]);
+  }
+  template <bool kHasTable>
+  uint32_t solve_in_lanes(CellKind kind, const Leaf& leaf, size_t visitor);
   uint32_t find_owners(const Leaf& leaf, size_t packet, uint32_t lanes, Word state,
                        uint32_t literal);
   void solve_lane(CellKind kind, const Leaf& leaf, size_t visitor, uint32_t lane);
@@ -83,23 +98,23 @@ class LeavesInLanes {
 
   void make_room(size_t literals) {
     if (scratch_.along.size() >= literals) return;
-    scratch_.signs.resize(literals * kMostPackets);
+    scratch_.signs.resize(literals * kGroup);
     scratch_.along.resize(literals);
   }
   void keep(size_t literal, size_t visitor, const L::AlongRay& f) {
-    TileAlong& to = scratch_.along[literal];
+    GroupAlong& to = scratch_.along[literal];
     const size_t at = visitor * Tile::lanes();
     hn::Store(f.a, D(), to.a + at), hn::Store(f.h, D(), to.h + at);
     hn::Store(f.k, D(), to.k + at), hn::Store(f.about, D(), to.about + at);
   }
   L::AlongRay kept(size_t literal, size_t visitor) const {
-    const TileAlong& from = scratch_.along[literal];
+    const GroupAlong& from = scratch_.along[literal];
     const size_t at = visitor * Tile::lanes();
     return {hn::Load(D(), from.a + at), hn::Load(D(), from.h + at), hn::Load(D(), from.k + at),
             hn::Load(D(), from.about + at)};
   }
   LaneSigns& signs(size_t literal, size_t visitor) {
-    return scratch_.signs[literal * kMostPackets + visitor];
+    return scratch_.signs[literal * kGroup + visitor];
   }
 
   const LaneScene& scene_;
@@ -107,18 +122,17 @@ class LeavesInLanes {
   LaneScratch& scratch_;
 
   /// Crossings of all visitors, those of each one after the other.
-  size_t root_count_ = 0;
   struct Root {
     uint8_t literal, visitor;
     uint8_t lanes, rising;
   };
-  Root roots_[2 * kTableLiterals * kMostPackets];
-  alignas(64) double root_t_[2 * kTableLiterals * kTileRays];
   // By visitor.
-  uint32_t open_[kMostPackets], quiet_[kMostPackets], opposite_[kMostPackets];
-  uint32_t waiting_[kMostPackets];  ///< visitors that are open
+  uint32_t open_[kGroup], quiet_[kGroup], opposite_[kGroup];
+  uint32_t waiting_[kGroup];  ///< visitors that are open
   size_t waiting_count_ = 0;
-  uint32_t first_root_[kMostPackets + 1];
+  uint32_t first_root_[kGroup + 1];
+  alignas(64) double root_t_[2 * kLaneLiterals * kGroupRays];
+  Root roots_[2 * kLaneLiterals * kGroup];
 };
 
 inline void LeavesInLanes::pass(CellLink cell) {
@@ -166,6 +180,8 @@ HWY_INLINE L::AlongRay LeavesInLanes::along(uint32_t half_space, size_t packet) 
                      origin.z - set(h.center.z)};
   if (kKind == AlongKind::kPlane) return L::plane_along_ray(set(h.v), o, d);
   if (kKind == AlongKind::kSphere) return L::sphere_along_ray(set(h.v.x), set(h.c), o, d);
+  if (kKind == AlongKind::kSmallSphere)
+    return L::small_sphere_along_ray(set(h.v.x), set(h.c), o, d);
   if (kKind == AlongKind::kDiagonal) return L::diagonal_along_ray(set(h.v), set(h.c), o, d);
   const auto& q = scene_.scene.half_spaces[half_space].f;
   const L::Quadric f = {set(q.diag), set(q.off), set(q.b), set(q.c)};
@@ -181,6 +197,8 @@ HWY_INLINE auto with_kind(AlongKind kind, const Visit& visit) {
       return visit(std::integral_constant<AlongKind, AlongKind::kPlane>());
     case AlongKind::kSphere:
       return visit(std::integral_constant<AlongKind, AlongKind::kSphere>());
+    case AlongKind::kSmallSphere:
+      return visit(std::integral_constant<AlongKind, AlongKind::kSmallSphere>());
     case AlongKind::kDiagonal:
       return visit(std::integral_constant<AlongKind, AlongKind::kDiagonal>());
     case AlongKind::kQuadric:
@@ -243,6 +261,9 @@ HWY_INLINE LeavesInLanes::End LeavesInLanes::end_at_eye(Real at_eye, L::AlongRay
 
 inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
   const std::span<const LeafLiteral> literals = leaf.literals();
+  // In a large model none of them is near, and all are on their way at once.
+  for (const LeafLiteral& literal : literals)
+    hwy::Prefetch(&scene_.half_spaces[literal.literal >> 1]);
   const bool conjunction = kind == CellKind::kConjunction,
              disjunction = kind == CellKind::kDisjunction;
   // One literal that is false all along settles a conjunction, one that is true a disjunction;
@@ -276,10 +297,14 @@ inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
     waiting_count_ += open_[i] != 0;
   }
   if (waiting_count_ == 0) return;
-  if (literals.size() <= kTableLiterals && scene_.solves_in_lanes) {
-    find_roots(literals.size());
-    for (size_t w = 0; w < waiting_count_; ++w)
-      open_[waiting_[w]] = solve_in_lanes(leaf, literals, waiting_[w]);
+  if (scene_.solves_in_lanes) {
+    if (literals.size() <= kTableLiterals) {
+      find_roots(literals.size());
+      for (size_t w = 0; w < waiting_count_; ++w)
+        open_[waiting_[w]] = solve_in_lanes<true>(kind, leaf, waiting_[w]);
+    } else if (settles && literals.size() <= kLaneLiterals) {
+      solve_long(kind, leaf);
+    }
   }
   for (size_t w = 0; w < waiting_count_; ++w)
     for (uint32_t left = open_[waiting_[w]]; left != 0; left &= left - 1)
@@ -341,12 +366,12 @@ inline void LeavesInLanes::find_roots(size_t literals) {
   }
 }
 
-/// Decides what is plain, by the leaf's truth table. Returns the lanes that are not: where
-/// crossings happen together, where the leaf disagrees with what is known, where a surface has
-/// several owners, and where numbers overflow.
-inline uint32_t LeavesInLanes::solve_in_lanes(const Leaf& leaf,
-                                              std::span<const LeafLiteral> literals,
-                                              size_t visitor) {
+/// Decides what is plain. Returns the lanes that are not: where crossings happen together, where
+/// the leaf disagrees with what is known, where a surface has several owners, and where numbers
+/// overflow.
+template <bool kHasTable>
+inline uint32_t LeavesInLanes::solve_in_lanes(CellKind kind, const Leaf& leaf, size_t visitor) {
+  const std::span<const LeafLiteral> literals = leaf.literals();
   const Real never = set(kInfinity);
   const Word one = hn::Set(Words(), 1), table = hn::Set(Words(), leaf.table);
   const auto as_words = [](Bool mask) { return hn::RebindMask(Words(), mask); };
@@ -356,7 +381,14 @@ inline uint32_t LeavesInLanes::solve_in_lanes(const Leaf& leaf,
   for (size_t i = 0; i < literals.size(); ++i)
     state = hn::Or(state, hn::IfThenElseZero(as_words(mask_of(signs(i, visitor).inside())),
                                              hn::Set(Words(), uint64_t(1) << i)));
+  // In one state only all literals of a conjunction hold, or none of a disjunction.
+  const uint32_t otherwise = kind == CellKind::kDisjunction ? ~0u : 0;
+  uint64_t lone_state = 0;
+  for (size_t i = 0; !kHasTable && i < literals.size(); ++i)
+    lone_state |= uint64_t((literals[i].literal ^ otherwise ^ 1) & 1) << i;
+  const Word lone = hn::Set(Words(), lone_state);
   const auto solid_in = [&](Word s) {
+    if (!kHasTable) return bits(hn::RebindMask(D(), hn::Eq(s, lone))) ^ otherwise;
     return bits(hn::RebindMask(D(), hn::Ne(hn::And(hn::Shr(table, s), one), hn::Zero(Words()))));
   };
   const uint32_t solid = solid_in(state);
@@ -431,10 +463,9 @@ inline uint32_t LeavesInLanes::find_owners(const Leaf& leaf, size_t packet, uint
 inline void LeavesInLanes::solve_lane(CellKind kind, const Leaf& leaf, size_t visitor,
                                       uint32_t lane) {
   const size_t packet = visitors.packet[visitor];
-  const std::span<const LeafLiteral> literals = leaf.literals();
   scratch_.on_ray.resize(leaf.literal_count);
   for (uint32_t i = 0; i < leaf.literal_count; ++i) {
-    const TileAlong& f = scratch_.along[i];
+    const GroupAlong& f = scratch_.along[i];
     const size_t at = visitor * Tile::lanes() + lane;
     const LaneSigns& s = signs(i, visitor);
     scratch_.on_ray[i] = {{f.a[at], f.h[at], f.k[at], f.about[at]},

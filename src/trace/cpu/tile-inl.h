@@ -29,15 +29,16 @@ constexpr double kAtEye = 1e-13;
 /// No inverse of a direction is larger, so that a product with it is a number (or infinite) always.
 constexpr double kMostInverse = 1e300;
 
-constexpr size_t kMostPackets = kTileRays;  ///< with one lane each
+constexpr size_t kMostPackets = 64;  ///< of a tile, a bit each
 
 /// Rays that walk through the cells together, a packet as many as there are lanes. t counts from
 /// the point of the ray that is nearest to the region's middle: far eyes would eat the digits.
 class Tile {
  public:
   static HWY_INLINE size_t lanes() { return hn::Lanes(D()); }
+  static HWY_INLINE size_t most_rays() { return std::min(kTileRays, kMostPackets * lanes()); }
 
-  /// At most kTileRays positions.
+  /// At most most_rays() positions.
   void make_rays(const LaneScene& scene, const Camera& camera,
                  std::span<const PixelPosition> positions);
   /// Hits of those that met something, nothing for the others.
@@ -224,7 +225,7 @@ HWY_INLINE void Tile::write_packet(const LaneScene& scene, size_t packet, const 
     } else {
       const L::Vec3 q = {point.x - set(h.center.x), point.y - set(h.center.y),
                          point.z - set(h.center.z)};
-      if (h.kind == AlongKind::kSphere) {
+      if (h.kind == AlongKind::kSphere || h.kind == AlongKind::kSmallSphere) {
         g = {set(h.v.x) * q.x, set(h.v.x) * q.y, set(h.v.x) * q.z};
       } else {
         const auto& f = scene.scene.half_spaces[number].f;
