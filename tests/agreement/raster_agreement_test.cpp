@@ -200,7 +200,7 @@ TEST_F(RasterAgreement, Examples) {
     SCOPED_TRACE(entry.path().string());
     const Result<Read> read = read_file(entry.path().string());
     ASSERT_TRUE(read) << read.error().message;
-    std::ranges::rotate(rules, rules.begin() + 1);
+    std::rotate(rules.begin(), rules.begin() + 1, rules.end());
     const AgreementReport report = agree(read->model, std::span(rules).first(is_short() ? 1 : 3),
                                          cameras_for(read->model, 64, 48));
     EXPECT_GT(report.hits, report.pixels / 10);
