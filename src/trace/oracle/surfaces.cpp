@@ -111,12 +111,13 @@ class Namer {
     add_new(surface, solid, {});
   }
 
-  /// Whether the whole outline lies on curved surface `i`, and if so, on the other nappe of it?
+  /// Whether the whole outline lies on one nappe of curved surface `i`, and if so, on the other
+  /// one?
   std::optional<bool> lies_on(uint32_t i, const Solid& solid) const {
     const Surface& s = out_.all[i];
     const Affine& object_from_world = out_.frames[s.frame].object_from_world;
     const double allowed = std::min(solid.tolerance, tolerance_[i]);
-    bool other_nappe = false;
+    std::optional<bool> other_nappe;
     for (const Vec3& p : solid.outline) {
       const Vec3 q = object_from_world.point(p);
       const bool sphere = s.kind == Surface::Kind::kSphere;
@@ -125,6 +126,8 @@ class Namer {
       const Vec3 g = {2 * q.x, 2 * q.y, sphere ? 2 * q.z : -2 * r * s.slope};
       const double steepness = length(object_from_world.transposed_vector(g));
       if (!(std::fabs(f) <= allowed * steepness && steepness > 0)) return std::nullopt;
+      // One circle on either nappe is no wall.
+      if (other_nappe && *other_nappe != (r < 0)) return std::nullopt;
       other_nappe = r < 0;
     }
     return other_nappe;
