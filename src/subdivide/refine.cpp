@@ -273,12 +273,9 @@ bool Refiner::is_wide(std::span<const Token> formula, uint32_t depth) const {
 
 /// A loop that helpers share, if there are any.
 Loop Refiner::loop_over(const Helpers* helpers) {
-  return [helpers](size_t n, size_t grain, const auto& body) {
-    if (helpers == nullptr)
-      body(0, n, 0);
-    else
-      helpers->workers.for_parts(n, grain, body);
-  };
+  const Workers* const workers = helpers == nullptr ? nullptr : &helpers->workers;
+  return
+      [workers](size_t n, size_t grain, const auto& body) { for_parts(workers, n, grain, body); };
 }
 
 std::optional<CellLink> Refiner::split_wide(const Cell& cell, const OpenCell& parent,
@@ -419,6 +416,21 @@ CellLink Refiner::open(const OpenCell& what, std::span<const Token> formula) {
   return {CellKind::kOpen, made};
 }
 
+CellLink Refiner::open_region() {
+  if (scene_.region.is_empty()) return decided(false);
+  Formula simplified;
+  std::span<const Token> formula = scene_.formula;
+  // Of a wide one nearly all is in the region, and its parts will be looked at by all threads.
+  if (!is_wide(formula, 0)) {
+    stats_.classified += formula.size();
+    const bool expand_all = expanded_size(scene_, formula) <= kExpandAll;
+    const Truth truth = simplifier_.simplify(formula, scene_.region, expand_all, simplified);
+    if (truth != Truth::kVaries) return decided(truth == Truth::kTrue);
+    formula = simplified;
+  }
+  return open({scene_.region, settings_.memory, 0, 0, expanded_size(scene_, formula), 0}, formula);
+}
+
 /// Whether a formula, however long, has no more half-spaces than a truth table can hold: many
 /// copies of one body.
 bool Refiner::has_few_half_spaces(std::span<const Token> formula) const {
@@ -445,75 +457,6 @@ bool Refiner::has_few_half_spaces(std::span<const Token> formula) const {
 bool Refiner::simple_enough() const {
   if (settings_.leaf == LeafRule::kHalfSpaces) return analysis_.size() <= settings_.leaf_size;
   return analysis_.primitive_count() <= settings_.leaf_size || analysis_.is_plain_union();
-}
-
-RefinerPool::RefinerPool(const Scene& scene, const SubdivideSettings& settings,
-                         const Workers* workers)
-    : scene_(scene),
-      settings_(settings),
-      boxes_(scene, workers),
-      root_{{}, {kNowhere, kNowhere}, 0} {
-  open_root();
-}
-
-void RefinerPool::open_root() {
-  Refiner& refiner = take();
-  CellLink link;
-  if (scene_.region.is_empty()) {
-    // Nothing is anywhere.
-  } else if (refiner.is_wide(scene_.formula, 0)) {
-    // Nearly all of it is in the region, and its parts will be looked at by all threads.
-    link = refiner.open(
-        {scene_.region, settings_.memory, 0, 0, expanded_size(scene_, scene_.formula), 0},
-        scene_.formula);
-  } else {
-    refiner.stats_.classified += scene_.formula.size();
-    Formula formula;
-    const Truth truth =
-        refiner.simplifier_.simplify(scene_.formula, scene_.region,
-                                     expanded_size(scene_, scene_.formula) <= kExpandAll, formula);
-    const OpenCell whole{scene_.region, settings_.memory, 0, 0, expanded_size(scene_, formula), 0};
-    link = truth == Truth::kVaries ? refiner.open(whole, formula)
-                                   : refiner.decided(truth == Truth::kTrue);
-  }
-  root().bits.store(link.bits(), std::memory_order_relaxed);
-  ++refiner.stats_.cells[size_t(link.kind())];
-  refiner.stats_.memory_bytes += sizeof(Cell);
-  give(refiner);
-}
-
-Refiner& RefinerPool::take() {
-  const std::lock_guard lock(mutex_);
-  if (unused_.empty()) {
-    all_.push_back(std::make_unique<Refiner>(scene_, boxes_, settings_));
-    unused_.reserve(all_.size());
-    return *all_.back();
-  }
-  Refiner& refiner = *unused_.back();
-  unused_.pop_back();
-  return refiner;
-}
-
-void RefinerPool::give(Refiner& refiner) {
-  const std::lock_guard lock(mutex_);
-  unused_.push_back(&refiner);
-}
-
-SubdivideStats RefinerPool::stats() const {
-  SubdivideStats sum;
-  for (const auto& refiner : all_) {
-    const SubdivideStats& part = refiner->stats_;
-    for (size_t kind = 0; kind < sum.cells.size(); ++kind) sum.cells[kind] += part.cells[kind];
-    if (sum.leaves_by_size.size() < part.leaves_by_size.size())
-      sum.leaves_by_size.resize(part.leaves_by_size.size());
-    for (size_t size = 0; size < part.leaves_by_size.size(); ++size)
-      sum.leaves_by_size[size] += part.leaves_by_size[size];
-    sum.depth = std::max(sum.depth, part.depth);
-    sum.classified += part.classified;
-    sum.refined += part.refined;
-    sum.memory_bytes += part.memory_bytes;
-  }
-  return sum;
 }
 
 }  // namespace whittle

@@ -86,6 +86,8 @@ class Refiner {
   /// Whether a cell would be another one across the threshold, and how much is known of that.
   enum class Across { kSame, kIgnored, kUnknown };
 
+  /// The whole region, open or decided already.
+  CellLink open_region();
   CellLink refine(const Cell& cell, const OpenCell& open, const Helpers* helpers);
   bool ends(const OpenCell& open, CellLink& link);
   bool keep_formula(const Cell& cell, CellLink open) const;
@@ -155,8 +157,6 @@ class RefinerPool {
   uint64_t moves() const { return moves_; }
 
  private:
-  void open_root();
-
   const Scene& scene_;
   SubdivideSettings settings_;
   const UnitBoxes boxes_;

@@ -1,4 +1,5 @@
 #include "whittle/renderer.h"
+#include "whittle/paper_settings_for_test.h"
 
 #include <gtest/gtest.h>
 
@@ -147,17 +148,6 @@ TEST(Renderer, ThePixelThresholdReachesTheCells) {
 constexpr const char* kManyCuts =
     "difference() { cube(20, center = true); sphere(12); translate([4, 4, 4]) sphere(9);"
     "translate([-8, 2, 9]) cylinder(r = 4, h = 30, center = true); }";
-
-/// By the paper's rules.
-RendererSettings paper_settings(Backend backend) {
-  RendererSettings settings;
-  settings.backend = backend;
-  settings.pixel_threshold = 1;
-  settings.subdivide.leaf_size = 2;
-  settings.subdivide.leaf = LeafRule::kPrimitives;
-  settings.subdivide.ignore_small = true;
-  return settings;
-}
 
 TEST(Renderer, KeepsItsCellsForOtherCamerasAndShowsWhatAFreshOneShows) {
   const Model model = model_of(kManyCuts);

@@ -42,5 +42,15 @@ TEST(Naming, LoweringAndOracleFindTheSameSurfaces) {
   EXPECT_GT(shared, 20000u);
 }
 
+TEST(Naming, CirclesOnTheTwoNappesOfAConeAreNoWallOfIt) {
+  // Both circles of the second lie on the first one's double cone, before its tip and behind it.
+  const std::string cone = "cylinder(h = 6, r1 = 2, r2 = 0); ";
+  // Only the discs below are one plane.
+  EXPECT_EQ(expect_same_names(cone + "cylinder(h = 18, r1 = 2, r2 = 4);"), 1u);
+  EXPECT_EQ(expect_same_names(cone + "cylinder(h = 18, r1 = 2, r2 = 0);"), 1u);
+  // A piece of the same nappe is the same wall.
+  EXPECT_EQ(expect_same_names(cone + "cylinder(h = 3, r1 = 2, r2 = 1);"), 2u);
+}
+
 }  // namespace
 }  // namespace whittle

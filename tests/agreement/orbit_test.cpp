@@ -7,21 +7,11 @@
 #include <string>
 
 #include "io/read.h"
+#include "whittle/paper_settings_for_test.h"
 #include "whittle/renderer.h"
 
 namespace whittle {
 namespace {
-
-RendererSettings paper_settings(Backend backend) {
-  RendererSettings settings;
-  settings.backend = backend;
-  settings.pixel_threshold = 1;
-  settings.subdivide.leaf_size = 2;
-  settings.subdivide.leaf = LeafRule::kPrimitives;
-  settings.subdivide.split = SplitRule::kXyz;
-  settings.subdivide.ignore_small = true;
-  return settings;
-}
 
 /// A renderer that keeps its cells, beside one that makes them afresh.
 class Orbit {

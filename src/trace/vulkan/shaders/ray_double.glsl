@@ -13,12 +13,11 @@ struct Ray {
 
 // The ray through a position of the picture, in pixels.
 Ray make_ray(vec2 position) {
-  const Real x = (Real(position.x) - view_half_width()) * view_scale();
-  const Real y = (view_half_height() - Real(position.y)) * view_scale();
+  const Vec2 at = in_picture(position);
   Ray ray;
   const bvec3 orthographic = bvec3(view.orthographic != 0);
   const Vec3 base = mix(view_forward(), view_eye(), orthographic);
-  const Vec3 point = picture_point(base, view_right(), view_up(), x, y);
+  const Vec3 point = picture_point(base, view_right(), view_up(), at.x, at.y);
   const Vec3 from = mix(view_eye(), point, orthographic);
   ray.direction = mix(unit3(point), view_forward(), orthographic);
   ray.shift = K(0) - dot3(from, ray.direction);

@@ -15,12 +15,11 @@ struct Ray {
 
 // The ray through a position of the picture, in pixels.
 Ray make_ray(vec2 position) {
-  const Real x = (Real(position.x) - view_half_width()) * view_scale();
-  const Real y = (view_half_height() - Real(position.y)) * view_scale();
+  const Vec2 at = in_picture(position);
   Ray ray;
   const bool orthographic = view.orthographic != 0;
-  const Vec3 beside = picture_point(Vec3(0), view_right(), view_up(), x, y);
-  const Vec3 point = picture_point(view_forward(), view_right(), view_up(), x, y);
+  const Vec3 beside = picture_point(Vec3(0), view_right(), view_up(), at.x, at.y);
+  const Vec3 point = picture_point(view_forward(), view_right(), view_up(), at.x, at.y);
   ray.direction = mix(unit3(point), view_forward(), bvec3(orthographic));
   ray.origin = beside * mix(view_axis_ahead(), K(1), orthographic);
   ray.shift = view_axis_ahead() * mix(sqrt(dot3(point, point)), K(1), orthographic);

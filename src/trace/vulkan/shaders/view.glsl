@@ -26,6 +26,11 @@ Real view_scale() { return view_number(12); }
 Real view_half_width() { return view_number(13); }
 Real view_half_height() { return view_number(14); }
 Real view_start() { return view_number(15); }       // t where rays start
+// Where a position in pixels lies in the picture, from its middle.
+Vec2 in_picture(vec2 position) {
+  return Vec2((Real(position.x) - view_half_width()) * view_scale(),
+              (view_half_height() - Real(position.y)) * view_scale());
+}
 // A place on the camera's axis, from which others are seen without loss, and from the eye to it.
 Vec3 view_axis() { return view_vector(0); }
 #if WHITTLE_DOUBLE
