@@ -26,7 +26,7 @@ struct Reach {
 
 class HalfSpaceTable {
  public:
-  /// `radius`: half the size of the region; `tolerance`: the model's, which no Reach's is above.
+  /// `radius`: half the size of the region; `tolerance`: no Reach's is above it.
   HalfSpaceTable(double radius, double tolerance);
 
   /// The literal of `h`, a surface of the primitive with this reach.

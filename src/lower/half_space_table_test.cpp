@@ -117,7 +117,7 @@ TEST(HalfSpaceTable, FindsTheCurvesThatLookingAtAllFinds) {
     const Shape shapes[] = {Sphere{1}, Cylinder{1, 1, 1, true}, Cylinder{2, 1, 0.5, false}};
     const Shape& shape = shapes[family % 3];
     for (int i = 0; i < 12; ++i) {
-      const double tolerance = own_tolerance(kTolerance, extent(shape, map));
+      const double tolerance = own_tolerance(kTolerance, extent(shape, map), 0);
       Affine moved = map;
       for (Vec3& row : moved.row) row += random.vector() * (random.small(2) * tolerance);
       moved.translation += random.vector() * (2 * random.small(2) * tolerance);
@@ -126,7 +126,7 @@ TEST(HalfSpaceTable, FindsTheCurvesThatLookingAtAllFinds) {
       const Extent e = within(lowered.extent, Box{{-1, -1, -1}, {1, 1, 1}});
       surfaces.push_back(
           {lowered.half_spaces.front(),
-           {e.center, e.radius, e.width, own_tolerance(kTolerance, e), {}, lowered.is_ball},
+           {e.center, e.radius, e.width, own_tolerance(kTolerance, e, 0), {}, lowered.is_ball},
            lowered.outline});
     }
   }

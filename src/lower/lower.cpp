@@ -147,7 +147,9 @@ Result<Scene> lower(const Model& model) {
   scene.region = {region.lo - scene.origin, region.hi - scene.origin};
 
   const Affine local_from_world = translation(-scene.origin);
-  HalfSpaceTable table(max_component(scene.region.size()) / 2, scene.tolerance);
+  const double least_tolerance = together(region);
+  HalfSpaceTable table(max_component(scene.region.size()) / 2,
+                       std::max(scene.tolerance, least_tolerance));
   std::vector<uint32_t> unit_of_node(model.nodes.size(), 0);
   LoweredPrimitive lowered;
   scene.units.reserve(model.primitives.size());
@@ -164,7 +166,7 @@ Result<Scene> lower(const Model& model) {
       lower_primitive(primitive.shape, local_from_world * instance.world_from_object, lowered);
     const uint32_t number = uint32_t(scene.units.size());
     const Extent extent = within(lowered.extent, scene.region);
-    const double tolerance = own_tolerance(scene.tolerance, extent);
+    const double tolerance = own_tolerance(scene.tolerance, extent, least_tolerance);
     const Reach reach = {extent.center, extent.radius,   extent.width,
                          tolerance,     lowered.outline, lowered.is_ball};
     for (const HalfSpace& half_space : lowered.half_spaces)

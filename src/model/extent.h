@@ -42,9 +42,10 @@ inline Extent within(const Extent& extent, const Box& region) {
 }
 
 /// How near another surface must be to a surface of this primitive to be the same: the model's
-/// tolerance, but never more than a thousandth of the primitive's own width, so that none is eaten.
-inline double own_tolerance(double model_tolerance, const Extent& extent) {
-  return std::min(model_tolerance, 1e-3 * extent.width);
+/// tolerance, but never more than a thousandth of the primitive's own width, so that none is eaten,
+/// and never less than what rounding can tell apart (see together()), so that equal faces are one.
+inline double own_tolerance(double model_tolerance, const Extent& extent, double together) {
+  return std::max(together, std::min(model_tolerance, 1e-3 * extent.width));
 }
 
 }  // namespace whittle

@@ -40,7 +40,14 @@ TEST(Extent, AHalfSpaceIsAsLargeAsTheRegion) {
   const Extent e = within(extent(Halfspace{}, Affine{}), region);
   EXPECT_EQ(e.center, (Vec3{1, 1, 0.5}));
   EXPECT_EQ(e.radius, 1.5);
-  EXPECT_EQ(own_tolerance(1e-6, e), 1e-6);
+  EXPECT_EQ(own_tolerance(1e-6, e, 0), 1e-6);
+}
+
+TEST(Extent, AToleranceIsNoMoreThanThePrimitiveBearsAndNoLessThanRoundingCanTell) {
+  const Extent thin = {.center = {}, .radius = 1, .width = 1e-4};
+  EXPECT_EQ(own_tolerance(1e-6, thin, 1e-9), 1e-7);
+  EXPECT_EQ(own_tolerance(1e-8, thin, 1e-9), 1e-8);
+  EXPECT_EQ(own_tolerance(1e-6, thin, 2e-7), 2e-7);
 }
 
 TEST(Extent, OutlinesLieOnTheSurface) {

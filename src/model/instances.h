@@ -88,7 +88,8 @@ inline constexpr double kUnboundedReach = 1000;
 /// Crossings of a ray closer together than this happen together: rounding cannot tell which comes
 /// first. So a curved wall that touches a flat one along a line has one owner there (the tie rules
 /// of docs/conventions.md). About five roundings of numbers as large as the region (world space) is
-/// and as its coordinates are; the parts of a model are many times larger.
+/// and as its coordinates are; the parts of a model are many times larger. Surfaces closer together
+/// than this are one (own_tolerance()).
 double together(const Box& region);
 
 /// Warnings about transforms that flatten or are not finite, as full messages.

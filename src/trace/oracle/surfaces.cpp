@@ -36,11 +36,12 @@ class Namer {
   Namer(const Model& model, std::span<const Instance> instances) {
     const Bounds b = bounds(model);
     region_ = view_region(b);
-    const double model_tolerance = tolerance(b);
+    model_tolerance_ = tolerance(b);
+    least_tolerance_ = together(region_);
     out_.faces_before.push_back(0);
     for (const Instance& instance : instances) {
       if (instance.empty) continue;
-      add(model.primitives[instance.primitive].shape, instance.world_from_object, model_tolerance);
+      add(model.primitives[instance.primitive].shape, instance.world_from_object);
       out_.faces_before.push_back(uint32_t(out_.faces.size()));
     }
   }
@@ -48,12 +49,12 @@ class Namer {
   Surfaces take() { return std::move(out_); }
 
  private:
-  void add(const Shape& shape, const Affine& world_from_object, double model_tolerance) {
+  void add(const Shape& shape, const Affine& world_from_object) {
     Solid solid{.object_from_world = inverse(world_from_object),
                 .extent = within(extent(shape, world_from_object), region_),
                 .tolerance = 0,
                 .outline = {}};
-    solid.tolerance = own_tolerance(model_tolerance, solid.extent);
+    solid.tolerance = own_tolerance(model_tolerance_, solid.extent, least_tolerance_);
     out_.frames.push_back(
         {solid.object_from_world, solid.object_from_world.point(solid.extent.center)});
     if (is_flat(shape)) {
@@ -142,6 +143,7 @@ class Namer {
   }
 
   Box region_;
+  double model_tolerance_ = 0, least_tolerance_ = 0;
   Surfaces out_;
   // One a surface: what later faces are compared with.
   std::vector<WorldPlane> world_;
