@@ -51,18 +51,16 @@ HalfSpaceTable::Fingerprint HalfSpaceTable::ball_fingerprint(const HalfSpace& h,
   // other that bounds |d| by sqrt(3) times the tolerance times the ratio of the longest semi-axis
   // to the shortest; sqrt(12) times the latter is above the width, and 1.2 times the outline's
   // reach above the former.
-  double longest = 0;
-  for (const Vec3& p : reach.outline) longest = std::max(longest, length(p - h.center));
   Fingerprint r;
   for (size_t i = 0; i < 3; ++i) r.point[i] = std::asinh(h.center[int(i)] / radius_);
   const double size = reach.width * radius_;
-  r.slack = size > 0 ? 16 * reach.tolerance * longest / size : 0;
+  r.slack = size > 0 ? 16 * reach.tolerance * reach.ball_reach / size : 0;
   return r;
 }
 
 HalfSpaceTable::Fingerprint HalfSpaceTable::fingerprint(const HalfSpace& h,
                                                         const Reach& reach) const {
-  Fingerprint r = reach.is_ball ? ball_fingerprint(h, reach) : wall_fingerprint(h, reach);
+  Fingerprint r = reach.ball_reach > 0 ? ball_fingerprint(h, reach) : wall_fingerprint(h, reach);
   for (double& x : r.point) {
     // A model of 1e-320 overflows here: all that cannot be told apart any more goes to one place.
     x = std::fabs(x) < 1e3 ? x * kCellsPerUnit : 0;
@@ -83,14 +81,16 @@ bool HalfSpaceTable::same_plane(uint32_t number, const HalfSpace& h, const Reach
          std::min(tolerances_[number], reach.tolerance);
 }
 
-bool HalfSpaceTable::same_curve(uint32_t number, const Reach& reach) const {
+bool HalfSpaceTable::same_curve(uint32_t number, const Reach& reach, const Outline& outline) const {
   const HalfSpace& known = half_spaces_[number];
   const double tolerance = std::min(tolerances_[number], reach.tolerance);
-  return std::ranges::all_of(reach.outline, [&](const Vec3& p) {
+  const auto lies_on_it = [&](const Vec3& p) {
     const Vec3 q = p - known.center;
     const double gradient = 2 * length(K::quadric_half_gradient(known.f, q));
     return std::fabs(K::quadric_value(known.f, q)) <= tolerance * gradient && gradient > 0;
-  });
+  };
+  return outline(
+      [&](std::span<const Vec3> points) { return std::ranges::all_of(points, lies_on_it); });
 }
 
 uint32_t HalfSpaceTable::find_plane(const HalfSpace& h, const Reach& reach, bool complement) const {
@@ -135,19 +135,20 @@ void HalfSpaceTable::add_plane(const HalfSpace& h, uint32_t number) {
   planes_.add({dot(normals_[group], nearest_to_origin) / step_, double(group), 0}, number);
 }
 
-uint32_t HalfSpaceTable::find_curve(const HalfSpace& h, const Reach& reach) const {
+uint32_t HalfSpaceTable::find_curve(const HalfSpace& h, const Reach& reach,
+                                    const Outline& outline) const {
   const Fingerprint at = fingerprint(h, reach);
   PointIndex::Point low, high;
   for (size_t i = 0; i < 3; ++i) low[i] = at.point[i] - at.slack, high[i] = at.point[i] + at.slack;
   uint32_t best = kNone;
-  (reach.is_ball ? balls_ : walls_).visit(low, high, [&](uint32_t number, const auto&) {
-    if (number < best && same_curve(number, reach)) best = number;
+  (reach.ball_reach > 0 ? balls_ : walls_).visit(low, high, [&](uint32_t number, const auto&) {
+    if (number < best && same_curve(number, reach, outline)) best = number;
   });
   return best;
 }
 
-Literal HalfSpaceTable::add(const HalfSpace& h, const Reach& reach) {
-  const uint32_t equal = h.is_plane() ? find_plane(h, reach, false) : find_curve(h, reach);
+Literal HalfSpaceTable::add(const HalfSpace& h, const Reach& reach, const Outline& outline) {
+  const uint32_t equal = h.is_plane() ? find_plane(h, reach, false) : find_curve(h, reach, outline);
   // Only planes come in complementary pairs: no primitive is the outside of a quadric.
   const uint32_t opposite = h.is_plane() ? find_plane(h, reach, true) : kNone;
   if (opposite < equal) return Literal(opposite) * 2 + 1;
@@ -158,7 +159,7 @@ Literal HalfSpaceTable::add(const HalfSpace& h, const Reach& reach) {
   if (h.is_plane())
     add_plane(h, number);
   else
-    (reach.is_ball ? balls_ : walls_).add(fingerprint(h, reach).point, number);
+    (reach.ball_reach > 0 ? balls_ : walls_).add(fingerprint(h, reach).point, number);
   return Literal(number) * 2;
 }
 

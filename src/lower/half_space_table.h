@@ -6,6 +6,7 @@
 // that have a number only, which never move, so a row of nearly equal planes cannot chain into one.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -18,29 +19,33 @@ namespace whittle {
 struct Reach {
   Vec3 center;  ///< the primitive lies in this ball
   double radius = 0;
-  double width = 0;               ///< see Extent
-  double tolerance = 0;           ///< see own_tolerance()
-  std::span<const Vec3> outline;  ///< of its curved surface, if it has one
-  bool is_ball = false;           ///< that surface is a sphere's, not a cylinder's or cone's
+  double width = 0;       ///< see Extent
+  double tolerance = 0;   ///< see own_tolerance()
+  double ball_reach = 0;  ///< of the outline of a sphere's image from its middle; 0 for the rest
 };
+
+/// Points that stand for a curved surface, some at a time: calls the test with them until it fails.
+/// True if it never does.
+using Outline = std::function<bool(const std::function<bool(std::span<const Vec3>)>&)>;
 
 class HalfSpaceTable {
  public:
   /// `radius`: half the size of the region; `tolerance`: no Reach's is above it.
   HalfSpaceTable(double radius, double tolerance);
 
-  /// The literal of `h`, a surface of the primitive with this reach.
-  Literal add(const HalfSpace& h, const Reach& reach);
+  /// The literal of `h`, a surface of the primitive with this reach. Its outline is asked for if
+  /// it is curved and near an earlier one.
+  Literal add(const HalfSpace& h, const Reach& reach, const Outline& outline);
 
   std::vector<HalfSpace> take() { return std::move(half_spaces_); }
 
  private:
   bool same_plane(uint32_t known, const HalfSpace& h, const Reach& reach, bool complement) const;
-  bool same_curve(uint32_t known, const Reach& reach) const;
+  bool same_curve(uint32_t known, const Reach& reach, const Outline& outline) const;
 
   /// The first number of an equal half-space (or of one whose complement is), or kNone.
   uint32_t find_plane(const HalfSpace& h, const Reach& reach, bool complement) const;
-  uint32_t find_curve(const HalfSpace& h, const Reach& reach) const;
+  uint32_t find_curve(const HalfSpace& h, const Reach& reach, const Outline& outline) const;
   void add_plane(const HalfSpace& h, uint32_t number);
 
   /// Where the surface stands in a space in which equal ones are neighbours.

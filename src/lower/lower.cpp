@@ -1,8 +1,9 @@
 #include "lower/lower.h"
 
 #include <algorithm>
+#include <numeric>
 
-#include "lower/half_space_table.h"
+#include "lower/merge.h"
 #include "lower/primitive_faces.h"
 #include "model/facets.h"
 #include "model/instances.h"
@@ -14,7 +15,7 @@ namespace {
 /// boxes around its facets would save nothing.
 constexpr uint32_t kManyFaces = 12;
 
-/// Merging may move a face by the tolerance; margins are a little more than that.
+/// Merging may move a face by its joint tolerance; margins are a little more than that.
 Box grown(const Box& box, double margin) {
   const Vec3 all{margin, margin, margin};
   return {box.lo - all, box.hi + all};
@@ -31,6 +32,44 @@ void add_face_boxes(const Shape& shape, const Affine& local_from_object, Unit& u
   }
   scene.face_boxes.insert(scene.face_boxes.end(), boxes.begin(), boxes.end());
 }
+
+/// The outlines of curved surfaces, made again when they are asked for: that is seldom, and those
+/// of a million spheres would take more memory than all else.
+class Outlines {
+ public:
+  Outlines(const Model& model, const Scene& scene) : model_(model), scene_(scene) {}
+
+  Outline of(uint32_t surface) {
+    return [this, surface](const auto& test) {
+      if (instances_.empty()) prepare();
+      const auto equal = std::ranges::equal_range(
+          faces_, surface, {}, [this](uint32_t face) { return scene_.faces[face].literal >> 1; });
+      return std::ranges::all_of(equal, [&](uint32_t face) {
+        // Units are in the order of the instances.
+        const Instance& instance = instances_[scene_.faces[face].unit];
+        points_ = outline(model_.primitives[instance.primitive].shape);
+        const Affine local_from_object = translation(-scene_.origin) * instance.world_from_object;
+        for (Vec3& p : points_) p = local_from_object.point(p);
+        return test(points_);
+      });
+    };
+  }
+
+ private:
+  void prepare() {
+    instances_ = instances(model_);
+    faces_.resize(scene_.faces.size());
+    std::iota(faces_.begin(), faces_.end(), 0);
+    std::ranges::stable_sort(faces_, {},
+                             [this](uint32_t face) { return scene_.faces[face].literal >> 1; });
+  }
+
+  const Model& model_;
+  const Scene& scene_;
+  std::vector<Instance> instances_;
+  std::vector<uint32_t> faces_;  ///< by surface
+  std::vector<Vec3> points_;
+};
 
 /// Walks the model in preorder and writes the formula with negation pushed to the literals.
 class FormulaBuilder {
@@ -148,8 +187,7 @@ Result<Scene> lower(const Model& model) {
 
   const Affine local_from_world = translation(-scene.origin);
   const double least_tolerance = together(region);
-  HalfSpaceTable table(max_component(scene.region.size()) / 2,
-                       std::max(scene.tolerance, least_tolerance));
+  FaceMerger merger(scene.region, scene.tolerance, least_tolerance);
   std::vector<uint32_t> unit_of_node(model.nodes.size(), 0);
   LoweredPrimitive lowered;
   scene.units.reserve(model.primitives.size());
@@ -167,24 +205,29 @@ Result<Scene> lower(const Model& model) {
     const uint32_t number = uint32_t(scene.units.size());
     const Extent extent = within(lowered.extent, scene.region);
     const double tolerance = own_tolerance(scene.tolerance, extent, least_tolerance);
-    const Reach reach = {extent.center, extent.radius,   extent.width,
-                         tolerance,     lowered.outline, lowered.is_ball};
+    const double moved = joint_tolerance(scene.tolerance, extent.width, least_tolerance);
+    const Reach reach = {extent.center, extent.radius, extent.width, tolerance,
+                         lowered.is_ball ? lowered.extent.radius : 0};
+    const Outline its_outline = [&](const auto& test) { return test(lowered.outline); };
     for (const HalfSpace& half_space : lowered.half_spaces)
-      scene.faces.push_back({table.add(half_space, reach), number});
+      scene.faces.push_back({merger.add(half_space, reach, its_outline), number});
     unit.face_count = uint32_t(scene.faces.size()) - unit.first_face;
     if (unit.face_count > 0)
-      unit.outer =
-          grown(transform(local_from_world, instance_box(model, instance)), 10 * tolerance);
+      unit.outer = grown(transform(local_from_world, instance_box(model, instance)), 10 * moved);
     if (unit.face_count >= kManyFaces) {
       unit.inner_center = lowered.extent.center;
-      unit.inner_radius = std::max(0.0, lowered.extent.width / 2 - tolerance);
+      unit.inner_radius = std::max(0.0, lowered.extent.width / 2 - moved);
       add_face_boxes(primitive.shape, local_from_world * instance.world_from_object, unit, scene);
     }
     if (scene.faces.size() >= Token::kMaxPayload) return too_large();
     unit_of_node[instance.node] = number;
     scene.units.push_back(unit);
   }
-  scene.half_spaces = table.take();
+  Outlines outlines(model, scene);
+  FaceMerger::Merged merged = merger.merge([&](uint32_t surface) { return outlines.of(surface); });
+  scene.half_spaces = std::move(merged.half_spaces);
+  for (Face& face : scene.faces)
+    face.literal = merged.literals[face.literal >> 1] ^ (face.literal & 1);
   if (!FormulaBuilder(model, scene, unit_of_node).build(scene.formula)) return too_large();
   return scene;
 }

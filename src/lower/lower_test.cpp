@@ -78,9 +78,10 @@ TEST(Lower, APrimitiveIsNeverEatenByTheTolerance) {
 TEST(HalfSpaceTable, NearlyEqualPlanesDoNotChain) {
   const double tolerance = 1e-6;
   HalfSpaceTable table(1, 1e-6);
-  const Reach reach{{}, 1, 1, tolerance, {}, false};
+  const Reach reach{{}, 1, 1, tolerance};
   for (int i = 0; i < 100; ++i)
-    table.add({{0, 0, i * 0.75 * tolerance}, {{}, {}, {0, 0, 0.5}, 0}, SurfaceKind::kPlane}, reach);
+    table.add({{0, 0, i * 0.75 * tolerance}, {{}, {}, {0, 0, 0.5}, 0}, SurfaceKind::kPlane}, reach,
+              {});
   // Each representative takes in the next one and no more.
   EXPECT_EQ(table.take().size(), 50u);
 }
@@ -97,10 +98,10 @@ TEST(HalfSpaceTable, FindsEqualsAcrossBucketBorders) {
     moved.center += moved.f.b * (1.9e-6 * unit(random));
     HalfSpace turned = moved;
     turned.f.b = -turned.f.b;
-    const Reach reach{h.center, 1, 1, 1e-6, {}, false};
-    const Literal first = table.add(h, reach);
-    EXPECT_EQ(table.add(moved, reach), first);
-    EXPECT_EQ(table.add(turned, reach), first ^ 1);
+    const Reach reach{h.center, 1, 1, 1e-6};
+    const Literal first = table.add(h, reach, {});
+    EXPECT_EQ(table.add(moved, reach, {}), first);
+    EXPECT_EQ(table.add(turned, reach, {}), first ^ 1);
   }
 }
 

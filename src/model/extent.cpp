@@ -84,6 +84,16 @@ Extent extent(const Shape& shape, const Affine& map) {
                         : curved_extent(shape, points, map);
 }
 
+Extent united(const Extent& a, const Extent& b) {
+  const double width = std::min(a.width, b.width);
+  const Vec3 way = b.center - a.center;
+  const double distance = length(way);
+  if (distance + b.radius <= a.radius) return {a.center, a.radius, width};
+  if (distance + a.radius <= b.radius) return {b.center, b.radius, width};
+  const double radius = (distance + a.radius + b.radius) / 2;
+  return {a.center + way * ((radius - a.radius) / distance), radius, width};
+}
+
 Extent curved_extent(const Shape& shape, std::span<const Vec3> points, const Affine& map) {
   const Affine back = inverse(map);
   const Vec3 middle = middle_of(points);

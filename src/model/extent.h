@@ -41,11 +41,25 @@ inline Extent within(const Extent& extent, const Box& region) {
   return extent.radius <= radius ? extent : Extent{region.center(), radius, extent.width};
 }
 
+/// The extent of several: a ball around theirs, and the width of the thinnest.
+Extent united(const Extent& a, const Extent& b);
+
 /// How near another surface must be to a surface of this primitive to be the same: the model's
 /// tolerance, but never more than a thousandth of the primitive's own width, so that none is eaten,
 /// and never less than what rounding can tell apart (see together()), so that equal faces are one.
 inline double own_tolerance(double model_tolerance, const Extent& extent, double together) {
   return std::max(together, std::min(model_tolerance, 1e-3 * extent.width));
+}
+
+/// Surfaces that are no farther apart than this were written to be the same.
+inline double equal_tolerance(double own_tolerance, double together) {
+  return std::max(together, 1e-3 * own_tolerance);
+}
+
+/// Surfaces that were written to be the same are the same as another one together or not at all: by
+/// the largest of their tolerances, but never more than a tenth of the thinnest primitive's width.
+inline double joint_tolerance(double largest_tolerance, double thinnest, double together) {
+  return std::max(together, std::min(largest_tolerance, 0.1 * thinnest));
 }
 
 }  // namespace whittle

@@ -45,9 +45,29 @@ TEST(Extent, AHalfSpaceIsAsLargeAsTheRegion) {
 
 TEST(Extent, AToleranceIsNoMoreThanThePrimitiveBearsAndNoLessThanRoundingCanTell) {
   const Extent thin = {.center = {}, .radius = 1, .width = 1e-4};
-  EXPECT_EQ(own_tolerance(1e-6, thin, 1e-9), 1e-7);
+  EXPECT_DOUBLE_EQ(own_tolerance(1e-6, thin, 1e-9), 1e-7);
   EXPECT_EQ(own_tolerance(1e-8, thin, 1e-9), 1e-8);
   EXPECT_EQ(own_tolerance(1e-6, thin, 2e-7), 2e-7);
+}
+
+TEST(Extent, WhatMovesTogetherMovesByTheLargestToleranceThatTheThinnestBears) {
+  EXPECT_EQ(joint_tolerance(1e-6, 1, 1e-9), 1e-6);
+  EXPECT_DOUBLE_EQ(joint_tolerance(1e-6, 1e-6, 1e-9), 1e-7);
+  EXPECT_EQ(joint_tolerance(1e-6, 1e-12, 1e-9), 1e-9);
+}
+
+TEST(Extent, OfSeveralIsTheSmallestBallAroundTheirsAndTheLeastWidth) {
+  const Extent a = {{0, 0, 0}, 1, 0.5}, b = {{4, 0, 0}, 2, 3}, inner = {{0.5, 0, 0}, 0.25, 0.1};
+  const Extent both = united(a, b);
+  EXPECT_EQ(both.center, (Vec3{2.5, 0, 0}));
+  EXPECT_EQ(both.radius, 3.5);
+  EXPECT_EQ(both.width, 0.5);
+  EXPECT_EQ(united(b, a).center, both.center);
+  for (const Extent& e : {united(a, inner), united(inner, a)}) {
+    EXPECT_EQ(e.center, a.center);
+    EXPECT_EQ(e.radius, a.radius);
+    EXPECT_EQ(e.width, inner.width);
+  }
 }
 
 TEST(Extent, OutlinesLieOnTheSurface) {

@@ -42,6 +42,17 @@ TEST(Naming, LoweringAndOracleFindTheSameSurfaces) {
   EXPECT_GT(shared, 20000u);
 }
 
+TEST(Naming, WhatWasWrittenOnOneSurfaceStaysOnOne) {
+  // A block and a thin drill whose bottoms are equal, and one a little lower: by the block's
+  // tolerance all three are one, by the drill's not.
+  const std::string part =
+      "difference() { translate([0, 0, 1.00002]) cube([10, 10, 2]);"
+      "translate([5, 5, 1.00002]) cylinder(h = 2, r = 0.005); }";
+  EXPECT_EQ(expect_same_names("translate([12, 0.5, 1]) cube(1);" + part), 3u);
+  // Too much lower for the block: then only their own tops and bottoms are shared.
+  EXPECT_EQ(expect_same_names("translate([12, 0.5, 0.999]) cube(1);" + part), 2u);
+}
+
 TEST(Naming, CirclesOnTheTwoNappesOfAConeAreNoWallOfIt) {
   // Both circles of the second lie on the first one's double cone, before its tip and behind it.
   const std::string cone = "cylinder(h = 6, r1 = 2, r2 = 0); ";

@@ -253,6 +253,83 @@ std::vector<CoincidentScene> tolerance_scenes() {
        .looks = {{{1, 0, 4}, {5, 1, 4}, 1}},
        .turns = false},
 
+      // What was written on one plane stays on one, whatever some of it lies on: the block's bottom
+      // would lie on the stranger's, the thin drill's own tolerance forbids it.
+      {.name = "stranger_beside_a_thin_drill",
+       .text = R"(
+           translate([12, 0, 1]) cube(1);
+           difference() {
+             translate([0, 0, 1.00002]) cube([10, 10, 2]);
+             translate([5, 5, 1.00002]) cylinder(h = 2, r = 0.005);
+           })",
+       .equal = R"(
+           translate([12, 0, 1]) cube(1);
+           difference() {
+             translate([0, 0, 1.00002]) cube([10, 10, 2]);
+             translate([5, 5, 0]) cylinder(h = 4, r = 0.005);
+           })",
+       .looks = {{{5, 5, 10}, {5, 5, 0}, 0.002}, {{5, 5, -6}, {5, 5, 1}, 0.002}},
+       .only_looks = true,
+       .turns = false},
+
+      // Over the drill the stranger's slanted bottom is within the tolerance, over the block not.
+      {.name = "slanted_stranger",
+       .text = R"(
+           translate([5, 5, 1]) multmatrix([[1, 0, 5e-6, 0], [0, 1, 0, 0], [-5e-6, 0, 1, 0]])
+             translate([2, 0, 0]) cube([2, 2, 1]);
+           difference() {
+             translate([0, 0, 1]) cube([10, 10, 2]);
+             translate([5, 5, 1]) cylinder(h = 2, r = 0.01);
+           })",
+       .equal = R"(
+           difference() {
+             translate([0, 0, 1]) cube([10, 10, 2]);
+             translate([5, 5, 0]) cylinder(h = 4, r = 0.01);
+           })",
+       .owners = {{1, 2}, {2, 3}},
+       .looks = {{{5, 5, 10}, {5, 5, 0}, 0.004}, {{5, 5, -6}, {5, 5, 1}, 0.004}},
+       .only_looks = true,
+       .turns = false},
+
+      // The drill's bottom is the thin stranger's, which the block's cannot be by the stranger's
+      // own tolerance; but by the drill's.
+      {.name = "thin_stranger",
+       .text = R"(
+           translate([0.5, 0.5, 1.00001]) cube([1, 1, 0.002]);
+           difference() {
+             translate([0, 0, 1]) cube([10, 10, 2]);
+             translate([5, 5, 1.00001]) cylinder(h = 9, r = 3);
+           })",
+       .equal = R"(
+           difference() {
+             translate([0, 0, 1]) cube([10, 10, 2]);
+             translate([5, 5, 0]) cylinder(h = 9, r = 3);
+           })",
+       .owners = {{1, 2}, {2, 3}},
+       .looks = {{{5, 5, 10}, {5, 5, 0}}, {{12, 11, 9}, {5, 5, 1}}, {{5, 5, -6}, {5, 5, 1}, 0.4}},
+       .only_looks = true,
+       .turns = false},
+
+      // A wall that is too near for the thin disc and not for the cylinder: no film closes the
+      // slot.
+      {.name = "stranger_beside_a_thin_disc",
+       .text = R"(
+           translate([0, 0, 20]) cylinder(h = 1, r = 5.00001);
+           difference() { cylinder(h = 10, r = 5); translate([0, 0, 4]) cylinder(h = 0.005, r = 5); })",
+       .equal = R"(
+           translate([0, 0, 20]) cylinder(h = 1, r = 5.00001);
+           cylinder(h = 4, r = 5.00001);
+           translate([0, 0, 4.005]) cylinder(h = 5.995, r = 5.00001);)",
+       .owners = {{2, 2, below(3.9999)},
+                  {2, 2, above(3.9999)},
+                  {2, 3, above(3.9999)},
+                  {3, 2, above(4.0051)},
+                  {3, 2, below(4.0051)},
+                  {3, 3, below(4.0051)}},
+       .looks = {{{30, 0, 4.0025}, {0, 0, 4.0025}, 0.0002}, {{30, 5, 12}, {0, 0, 5}}},
+       .only_looks = true,
+       .turns = false},
+
       ramp(),
   };
   add_nearly_equal(scenes, "1e_5", 1e-5);

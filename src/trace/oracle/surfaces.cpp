@@ -15,7 +15,7 @@ namespace {
 struct Solid {
   Affine object_from_world;
   Extent extent;              ///< world space
-  double tolerance = 0;       ///< of its surfaces
+  double tolerance = 0;       ///< its own
   std::vector<Vec3> outline;  ///< world space; of a curved one only
 };
 
@@ -31,93 +31,152 @@ WorldPlane world_plane(const Plane& plane, const Solid& solid, const Affine& wor
           world_from_object.point(near)};
 }
 
+/// Surfaces with what later ones are compared with.
+struct Known {
+  Surface surface;
+  WorldPlane at;         ///< of a plane
+  double tolerance = 0;  ///< that others must keep to
+};
+
+/// Whether two planes are nowhere farther apart than `allowed` in the ball, and if so, do they face
+/// each other's back?
+std::optional<bool> same_plane(const WorldPlane& known, const WorldPlane& at, const Extent& ball,
+                               double allowed) {
+  const bool opposite = dot(at.n, known.n) < 0;
+  const double parting = length(opposite ? at.n + known.n : at.n - known.n);
+  const Vec3 foot = ball.center - at.n * dot(at.n, ball.center - at.point);
+  if (std::fabs(dot(known.n, foot - known.point)) + parting * ball.radius <= allowed)
+    return opposite;
+  return std::nullopt;
+}
+
 class Namer {
  public:
   Namer(const Model& model, std::span<const Instance> instances) {
     const Bounds b = bounds(model);
     region_ = view_region(b);
-    model_tolerance_ = tolerance(b);
-    least_tolerance_ = together(region_);
+    together_ = together(region_);
+    const double model_tolerance = tolerance(b);
     out_.faces_before.push_back(0);
     for (const Instance& instance : instances) {
       if (instance.empty) continue;
-      add(model.primitives[instance.primitive].shape, instance.world_from_object);
+      add(model.primitives[instance.primitive].shape, instance.world_from_object, model_tolerance);
       out_.faces_before.push_back(uint32_t(out_.faces.size()));
     }
+    for (const Written& written : written_) merge(written);
   }
 
   Surfaces take() { return std::move(out_); }
 
  private:
-  void add(const Shape& shape, const Affine& world_from_object) {
+  /// Faces that were written to be the same. What they are compared with is the first of them.
+  struct Written : Known {
+    Extent extent;                ///< of all their primitives
+    double largest = 0;           ///< of their tolerances
+    std::vector<uint32_t> faces;  ///< into Surfaces::faces
+  };
+
+  void add(const Shape& shape, const Affine& world_from_object, double model_tolerance) {
     Solid solid{.object_from_world = inverse(world_from_object),
                 .extent = within(extent(shape, world_from_object), region_),
                 .tolerance = 0,
                 .outline = {}};
-    solid.tolerance = own_tolerance(model_tolerance_, solid.extent, least_tolerance_);
+    solid.tolerance = own_tolerance(model_tolerance, solid.extent, together_);
     out_.frames.push_back(
         {solid.object_from_world, solid.object_from_world.point(solid.extent.center)});
-    if (is_flat(shape)) {
-      for (const Plane& plane : facet_planes(shape)) add_plane(plane, solid, world_from_object);
-      return;
+    if (!is_flat(shape)) {
+      solid.outline = outline(shape);
+      for (Vec3& p : solid.outline) p = world_from_object.point(p);
     }
-    solid.outline = outline(shape);
-    for (Vec3& p : solid.outline) p = world_from_object.point(p);
-    if (const auto* s = std::get_if<Sphere>(&shape)) {
+    solids_.push_back(std::move(solid));
+    if (is_flat(shape)) {
+      for (const Plane& plane : facet_planes(shape)) add_plane(plane, world_from_object);
+    } else if (const auto* s = std::get_if<Sphere>(&shape)) {
       Surface sphere;
       sphere.kind = Surface::Kind::kSphere;
       sphere.radius = s->r;
-      add_curve(sphere, solid);
-      return;
+      add_face(sphere, {});
+    } else {
+      const auto& c = std::get<Cylinder>(shape);
+      Surface side;
+      side.kind = Surface::Kind::kCone;
+      side.z0 = c.center ? -c.h / 2 : 0;
+      side.z1 = side.z0 + c.h;
+      side.radius = c.r1;
+      side.slope = (c.r2 - c.r1) / c.h;
+      add_face(side, {});
+      add_plane({{0, 0, -1}, -side.z0}, world_from_object);
+      add_plane({{0, 0, 1}, side.z1}, world_from_object);
     }
-    const auto& s = std::get<Cylinder>(shape);
-    Surface side;
-    side.kind = Surface::Kind::kCone;
-    side.z0 = s.center ? -s.h / 2 : 0;
-    side.z1 = side.z0 + s.h;
-    side.radius = s.r1;
-    side.slope = (s.r2 - s.r1) / s.h;
-    add_curve(side, solid);
-    add_plane({{0, 0, -1}, -side.z0}, solid, world_from_object);
-    add_plane({{0, 0, 1}, side.z1}, solid, world_from_object);
   }
 
-  void add_plane(const Plane& plane, const Solid& solid, const Affine& world_from_object) {
-    const WorldPlane at = world_plane(plane, solid, world_from_object);
-    for (uint32_t i = 0; i < out_.all.size(); ++i) {
-      if (out_.all[i].kind != Surface::Kind::kPlane) continue;
-      const bool opposite = dot(at.n, world_[i].n) < 0;
-      const double parting = length(opposite ? at.n + world_[i].n : at.n - world_[i].n);
-      const Vec3 center = solid.extent.center;
-      const Vec3 foot = center - at.n * dot(at.n, center - at.point);
-      if (std::fabs(dot(world_[i].n, foot - world_[i].point)) + parting * solid.extent.radius <=
-          std::min(solid.tolerance, tolerance_[i])) {
-        out_.faces.push_back({i, opposite});
-        return;
-      }
-    }
+  void add_plane(const Plane& plane, const Affine& world_from_object) {
     Surface surface;
     surface.plane = plane;
-    add_new(surface, solid, at);
+    add_face(surface, world_plane(plane, solids_.back(), world_from_object));
   }
 
-  void add_curve(const Surface& surface, const Solid& solid) {
-    for (uint32_t i = 0; i < out_.all.size(); ++i) {
-      if (out_.all[i].kind != surface.kind) continue;
-      if (const std::optional<bool> other_side = lies_on(i, solid)) {
-        out_.faces.push_back({i, *other_side});
-        return;
-      }
+  /// A face of the last solid: on an earlier surface, if it was written to be, or on a new one.
+  void add_face(Surface surface, const WorldPlane& at) {
+    const Solid& solid = solids_.back();
+    const double fine = equal_tolerance(solid.tolerance, together_);
+    // Equal planes are equal everywhere, not only where one of the primitives is.
+    const Extent everywhere = {region_.center(), 0.5 * region_.diagonal(), 0};
+    const auto same_as = [&](const Written& known) -> std::optional<bool> {
+      if (known.surface.kind != surface.kind) return std::nullopt;
+      const double allowed = std::min(fine, known.tolerance);
+      return surface.kind == Surface::Kind::kPlane ? same_plane(known.at, at, everywhere, allowed)
+                                                   : lies_on(known.surface, solid, allowed);
+    };
+    uint32_t i = 0;
+    std::optional<bool> other_side;
+    while (i < written_.size() && !(other_side = same_as(written_[i]))) ++i;
+    if (i == written_.size()) {
+      surface.frame = uint32_t(solids_.size() - 1);
+      written_.push_back({{surface, at, fine}, solid.extent, 0, {}});
     }
-    add_new(surface, solid, {});
+    Written& written = written_[i];
+    written.extent = united(written.extent, solid.extent);
+    written.largest = std::max(written.largest, solid.tolerance);
+    written.faces.push_back(uint32_t(out_.faces.size()));
+    solid_of_.push_back(uint32_t(solids_.size() - 1));
+    out_.faces.push_back({i, other_side.value_or(false)});
   }
 
-  /// Whether the whole outline lies on one nappe of curved surface `i`, and if so, on the other
+  /// Finds the surface that all these faces lie on.
+  void merge(const Written& written) {
+    const double tolerance = joint_tolerance(written.largest, written.extent.width, together_);
+    for (uint32_t i = 0; i < known_.size(); ++i)
+      if (move_onto(i, written, std::min(tolerance, known_[i].tolerance))) return;
+    for (const uint32_t face : written.faces) out_.faces[face].surface = uint32_t(known_.size());
+    known_.push_back({written.surface, written.at, tolerance});
+    out_.all.push_back(written.surface);
+  }
+
+  bool move_onto(uint32_t i, const Written& written, double allowed) {
+    const Known& known = known_[i];
+    if (known.surface.kind != written.surface.kind) return false;
+    std::vector<bool> other_side;
+    for (const uint32_t face : written.faces) {
+      std::optional<bool> other;
+      if (written.surface.kind == Surface::Kind::kPlane) {
+        other = same_plane(known.at, written.at, written.extent, allowed);
+        if (other) other = *other != out_.faces[face].other_side;
+      } else {
+        other = lies_on(known.surface, solids_[solid_of_[face]], allowed);
+      }
+      if (!other) return false;
+      other_side.push_back(*other);
+    }
+    for (size_t k = 0; k < other_side.size(); ++k)
+      out_.faces[written.faces[k]] = {i, other_side[k]};
+    return true;
+  }
+
+  /// Whether the whole outline lies on one nappe of the curved surface, and if so, on the other
   /// one?
-  std::optional<bool> lies_on(uint32_t i, const Solid& solid) const {
-    const Surface& s = out_.all[i];
+  std::optional<bool> lies_on(const Surface& s, const Solid& solid, double allowed) const {
     const Affine& object_from_world = out_.frames[s.frame].object_from_world;
-    const double allowed = std::min(solid.tolerance, tolerance_[i]);
     std::optional<bool> other_nappe;
     for (const Vec3& p : solid.outline) {
       const Vec3 q = object_from_world.point(p);
@@ -134,20 +193,13 @@ class Namer {
     return other_nappe;
   }
 
-  void add_new(const Surface& surface, const Solid& solid, const WorldPlane& at) {
-    out_.faces.push_back({uint32_t(out_.all.size()), false});
-    out_.all.push_back(surface);
-    out_.all.back().frame = uint32_t(out_.frames.size() - 1);
-    world_.push_back(at);
-    tolerance_.push_back(solid.tolerance);
-  }
-
   Box region_;
-  double model_tolerance_ = 0, least_tolerance_ = 0;
+  double together_ = 0;
   Surfaces out_;
-  // One a surface: what later faces are compared with.
-  std::vector<WorldPlane> world_;
-  std::vector<double> tolerance_;
+  std::vector<Solid> solids_;
+  std::vector<uint32_t> solid_of_;  ///< one a face
+  std::vector<Written> written_;
+  std::vector<Known> known_;
 };
 
 }  // namespace

@@ -1,0 +1,50 @@
+// Moves faces onto earlier ones that they lie on, in two steps (docs/conventions.md, Coincidence).
+//
+// First, faces that were written to be the same become one surface. Then these surfaces, in file
+// order, lie on an earlier one or are new. So what is equal moves together, and nothing opens or
+// closes between faces because one of them lies on a third.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "base/box.h"
+#include "lower/half_space_table.h"
+#include "lower/scene.h"
+#include "model/extent.h"
+
+namespace whittle {
+
+class FaceMerger {
+ public:
+  /// `region`: local coordinates. Lengths: the model's tolerance, and what rounding cannot tell
+  /// apart (together()).
+  FaceMerger(const Box& region, double tolerance, double together);
+
+  /// A face of a primitive. Returns a literal of its surface as it was written.
+  Literal add(const HalfSpace& face, const Reach& primitive, const Outline& outline);
+
+  struct Merged {
+    std::vector<HalfSpace> half_spaces;
+    std::vector<Literal> literals;  ///< for every surface as it was written: what it is now
+  };
+  /// The outline of all faces that were written on one curved surface, see Outline.
+  using Outlines = std::function<Outline(uint32_t surface)>;
+  /// What has been added is gone after this.
+  Merged merge(const Outlines& outlines);
+
+ private:
+  /// Faces on one surface as it was written.
+  struct Written {
+    Reach reach;    ///< of the primitive with the largest tolerance
+    Extent extent;  ///< of all their primitives
+  };
+
+  Box region_;
+  double tolerance_, together_;
+  HalfSpaceTable table_;
+  std::vector<Written> written_;
+};
+
+}  // namespace whittle
