@@ -31,7 +31,8 @@ HalfSpaceTable::Fingerprint HalfSpaceTable::wall_fingerprint(const HalfSpace& h,
   // The values of f at three points in general position tell surfaces apart and hardly change
   // between nearly equal ones. They are taken relative to the second degree: equal over a small
   // primitive, two may part far away from it, but in those units by no more than in shape.
-  // asinh tames the growth of what is far off.
+  // asinh tames the growth of what is far off; the slack holds for walls that come within a few
+  // radii, and of others nothing is seen.
   static constexpr Vec3 kProbes[3] = {
       {0.413, -0.287, 0.619}, {-0.531, 0.347, 0.271}, {0.179, 0.683, -0.443}};
   const double unit = curvature(h.f) * radius_ * radius_;
@@ -93,7 +94,9 @@ bool HalfSpaceTable::same_curve(uint32_t number, const Reach& reach, const Outli
       [&](std::span<const Vec3> points) { return std::ranges::all_of(points, lies_on_it); });
 }
 
-uint32_t HalfSpaceTable::find_plane(const HalfSpace& h, const Reach& reach, bool complement) const {
+template <class Visit>
+void HalfSpaceTable::visit_planes(PointIndex Shelves::*shelf, const HalfSpace& h,
+                                  const Reach& reach, bool complement, const Visit& visit) const {
   const Vec3 m = h.f.b * 2.0, n = complement ? -m : m;
   // Equal planes part by no more than the tolerance over the primitive.
   const double parting = std::min(1.0, reach.tolerance / reach.radius) + 2 * kSameNormal;
@@ -106,61 +109,99 @@ uint32_t HalfSpaceTable::find_plane(const HalfSpace& h, const Reach& reach, bool
   // The foot's distance from an equal plane, and what the group's normal adds to it.
   const double slack =
       (1.01 * reach.tolerance + 8 * kSameNormal * (length(foot) + reach.tolerance)) / step_;
-  uint32_t best = kNone;
-  groups_.visit(low, high, [&](uint32_t group, const auto&) {
+  bool goes_on = true;
+  groups_.visit(low, high, [&](uint32_t group) {
     const double offset = dot(normals_[group], foot) / step_, of_group = double(group);
-    planes_.visit({offset - slack, of_group, 0}, {offset + slack, of_group, 0},
-                  [&](uint32_t number, const auto&) {
-                    if (number < best && same_plane(number, h, reach, complement)) best = number;
-                  });
+    (planes_.*shelf)
+        .visit({offset - slack, of_group, 0}, {offset + slack, of_group, 0}, [&](uint32_t number) {
+          return goes_on = visit(Literal(number) * 2 + (complement ? 1 : 0));
+        });
+    return goes_on;
   });
-  return best;
 }
 
-void HalfSpaceTable::add_plane(const HalfSpace& h, uint32_t number) {
-  const Vec3 n = h.f.b * 2.0;
+template <class Visit>
+void HalfSpaceTable::visit_near(PointIndex Shelves::*shelf, const HalfSpace& h, const Reach& reach,
+                                const Fingerprint& at, const Visit& visit) const {
+  if (h.is_plane()) {
+    // Only planes come in complementary pairs: no primitive is the outside of a quadric.
+    visit_planes(shelf, h, reach, false, visit);
+    visit_planes(shelf, h, reach, true, visit);
+    return;
+  }
+  PointIndex::Point low, high;
+  for (size_t i = 0; i < 3; ++i) low[i] = at.point[i] - at.slack, high[i] = at.point[i] + at.slack;
+  const Shelves& shelves = reach.ball_reach > 0 ? balls_ : walls_;
+  (shelves.*shelf).visit(low, high, [&](uint32_t number) { return visit(Literal(number) * 2); });
+}
+
+uint32_t HalfSpaceTable::group_of(Vec3 n) {
   PointIndex::Point at, low, high;
   for (size_t i = 0; i < 3; ++i) {
     at[i] = n[int(i)] * kCellsPerUnit;
     low[i] = at[i] - kSameNormal * kCellsPerUnit, high[i] = at[i] + kSameNormal * kCellsPerUnit;
   }
   uint32_t group = kNone;
-  groups_.visit(low, high, [&](uint32_t found, const auto&) { group = std::min(group, found); });
+  groups_.visit(low, high, [&](uint32_t found) {
+    group = std::min(group, found);
+    return true;
+  });
   if (group == kNone) {
     group = uint32_t(normals_.size());
     normals_.push_back(n);
     groups_.add(at, group);
   }
-  const Vec3 nearest_to_origin = n * dot(n, h.center);
-  planes_.add({dot(normals_[group], nearest_to_origin) / step_, double(group), 0}, number);
+  return group;
 }
 
-uint32_t HalfSpaceTable::find_curve(const HalfSpace& h, const Reach& reach,
-                                    const Outline& outline) const {
-  const Fingerprint at = fingerprint(h, reach);
-  PointIndex::Point low, high;
-  for (size_t i = 0; i < 3; ++i) low[i] = at.point[i] - at.slack, high[i] = at.point[i] + at.slack;
-  uint32_t best = kNone;
-  (reach.ball_reach > 0 ? balls_ : walls_).visit(low, high, [&](uint32_t number, const auto&) {
-    if (number < best && same_curve(number, reach, outline)) best = number;
-  });
-  return best;
+void HalfSpaceTable::put(const HalfSpace& h, uint32_t number, bool is_ball, const Fingerprint& at) {
+  const bool crowded = crowded_[number];
+  if (h.is_plane()) {
+    const Vec3 n = h.f.b * 2.0, nearest_to_origin = n * dot(n, h.center);
+    const uint32_t group = group_of(n);
+    const double offset = dot(normals_[group], nearest_to_origin) / step_;
+    planes_.of(crowded).add({offset, double(group), 0}, number);
+  } else {
+    (is_ball ? balls_ : walls_).of(crowded).add(at.point, number);
+  }
 }
 
-Literal HalfSpaceTable::add(const HalfSpace& h, const Reach& reach, const Outline& outline) {
-  const uint32_t equal = h.is_plane() ? find_plane(h, reach, false) : find_curve(h, reach, outline);
-  // Only planes come in complementary pairs: no primitive is the outside of a quadric.
-  const uint32_t opposite = h.is_plane() ? find_plane(h, reach, true) : kNone;
-  if (opposite < equal) return Literal(opposite) * 2 + 1;
-  if (equal != kNone) return Literal(equal) * 2;
-  const uint32_t number = uint32_t(half_spaces_.size());
-  half_spaces_.push_back(h);
-  tolerances_.push_back(reach.tolerance);
-  if (h.is_plane())
-    add_plane(h, number);
-  else
-    (reach.ball_reach > 0 ? balls_ : walls_).add(fingerprint(h, reach).point, number);
-  return Literal(number) * 2;
+Literal HalfSpaceTable::add(const HalfSpace& h, const Reach& reach, const Reach& equal,
+                            const Outline& outline) {
+  const Fingerprint at = h.is_plane() ? Fingerprint{} : fingerprint(h, reach);
+  Fingerprint at_equal = at;
+  if (reach.tolerance > 0) at_equal.slack *= equal.tolerance / reach.tolerance;
+
+  // In a crowd there can be very many: of them only those that may be equal are looked at.
+  near_.clear();
+  const auto remember = [this](Literal other) {
+    near_.push_back(other);
+    return true;
+  };
+  visit_near(&Shelves::lonely, h, reach, at, remember);
+  visit_near(&Shelves::crowded, h, equal, at_equal, remember);
+  Literal found = Literal(half_spaces_.size()) * 2;
+  for (const Literal other : near_) {
+    if (other >> 1 < found >> 1 && (h.is_plane() ? same_plane(other >> 1, h, equal, other & 1)
+                                                 : same_curve(other >> 1, equal, outline)))
+      found = other;
+  }
+
+  const uint32_t number = found >> 1;
+  const bool is_new = number == half_spaces_.size();
+  if (is_new) {
+    half_spaces_.push_back(h);
+    tolerances_.push_back(equal.tolerance);
+    crowded_.push_back(false);
+  }
+  const auto crowds = [this, number](Literal other) {
+    if (other >> 1 != number) crowded_[other >> 1] = crowded_[number] = true;
+    return !crowded_[number];
+  };
+  for (const Literal other : near_) crowds(other);
+  if (!crowded_[number]) visit_near(&Shelves::crowded, h, reach, at, crowds);
+  if (is_new) put(h, number, reach.ball_reach > 0, at);
+  return found;
 }
 
 }  // namespace whittle

@@ -35,7 +35,15 @@ class HalfSpaceTable {
 
   /// The literal of `h`, a surface of the primitive with this reach. Its outline is asked for if
   /// it is curved and near an earlier one.
-  Literal add(const HalfSpace& h, const Reach& reach, const Outline& outline);
+  Literal add(const HalfSpace& h, const Reach& reach, const Outline& outline) {
+    return add(h, reach, reach, outline);
+  }
+  /// The same, but equal is only what is equal over a reach that tells more surfaces apart.
+  Literal add(const HalfSpace& h, const Reach& reach, const Reach& equal, const Outline& outline);
+
+  /// Whether another surface stands so near that it may be equal to this one over a reach that was
+  /// added with it.
+  bool is_crowded(uint32_t number) const { return crowded_[number]; }
 
   std::vector<HalfSpace> take() { return std::move(half_spaces_); }
 
@@ -43,29 +51,47 @@ class HalfSpaceTable {
   bool same_plane(uint32_t known, const HalfSpace& h, const Reach& reach, bool complement) const;
   bool same_curve(uint32_t known, const Reach& reach, const Outline& outline) const;
 
-  /// The first number of an equal half-space (or of one whose complement is), or kNone.
-  uint32_t find_plane(const HalfSpace& h, const Reach& reach, bool complement) const;
-  uint32_t find_curve(const HalfSpace& h, const Reach& reach, const Outline& outline) const;
-  void add_plane(const HalfSpace& h, uint32_t number);
-
   /// Where the surface stands in a space in which equal ones are neighbours.
   struct Fingerprint {
     PointIndex::Point point;
-    double slack;  ///< how far an equal surface's can be
+    double slack;  ///< how far an equal surface's can be; in proportion to the tolerance
   };
   Fingerprint wall_fingerprint(const HalfSpace& h, const Reach& reach) const;
   Fingerprint ball_fingerprint(const HalfSpace& h, const Reach& reach) const;
   Fingerprint fingerprint(const HalfSpace& h, const Reach& reach) const;
 
+  /// Those that had no other near them when they were added, which are few in any place, and the
+  /// rest.
+  struct Shelves {
+    PointIndex lonely, crowded;
+    PointIndex& of(bool is_crowded) { return is_crowded ? crowded : lonely; }
+  };
+
+  /// Calls visit(literal) for those on the shelf that may be equal over the reach, or whose
+  /// complements may, until it returns false.
+  template <class Visit>
+  void visit_near(PointIndex Shelves::*shelf, const HalfSpace& h, const Reach& reach,
+                  const Fingerprint& at, const Visit& visit) const;
+  template <class Visit>
+  void visit_planes(PointIndex Shelves::*shelf, const HalfSpace& h, const Reach& reach,
+                    bool complement, const Visit& visit) const;
+  void put(const HalfSpace& h, uint32_t number, bool is_ball, const Fingerprint& at);
+  uint32_t group_of(Vec3 normal);
+
   double radius_;
   double step_;  ///< of planes' offsets in their index
   std::vector<HalfSpace> half_spaces_;
-  std::vector<double> tolerances_;  ///< one a half-space
-  PointIndex balls_, walls_;        ///< by fingerprint
+  // One a half-space.
+  std::vector<double> tolerances_;
+  std::vector<bool> crowded_;
+
+  std::vector<Literal> near_;  ///< while one is added
+  Shelves balls_, walls_;      ///< by fingerprint
   /// Planes in groups that have one normal but for rounding, and by group and distance from the
   /// origin.
   std::vector<Vec3> normals_;
-  PointIndex groups_, planes_;
+  PointIndex groups_;
+  Shelves planes_;
 };
 
 }  // namespace whittle

@@ -42,9 +42,12 @@ class Outlines {
   Outline of(uint32_t surface) {
     return [this, surface](const auto& test) {
       if (instances_.empty()) prepare();
-      const auto equal = std::ranges::equal_range(
-          faces_, surface, {}, [this](uint32_t face) { return scene_.faces[face].literal >> 1; });
-      return std::ranges::all_of(equal, [&](uint32_t face) {
+      const auto lies_before = [this](uint32_t face, uint32_t number) {
+        return scene_.faces[face].literal >> 1 < number;
+      };
+      const auto first = std::lower_bound(faces_.begin(), faces_.end(), surface, lies_before);
+      const auto last = std::lower_bound(first, faces_.end(), surface + 1, lies_before);
+      return std::all_of(first, last, [&](uint32_t face) {
         // Units are in the order of the instances.
         const Instance& instance = instances_[scene_.faces[face].unit];
         points_ = outline(model_.primitives[instance.primitive].shape);
@@ -60,8 +63,9 @@ class Outlines {
     instances_ = instances(model_);
     faces_.resize(scene_.faces.size());
     std::iota(faces_.begin(), faces_.end(), 0);
-    std::ranges::stable_sort(faces_, {},
-                             [this](uint32_t face) { return scene_.faces[face].literal >> 1; });
+    std::stable_sort(faces_.begin(), faces_.end(), [this](uint32_t a, uint32_t b) {
+      return scene_.faces[a].literal >> 1 < scene_.faces[b].literal >> 1;
+    });
   }
 
   const Model& model_;

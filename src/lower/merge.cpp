@@ -1,60 +1,71 @@
 #include "lower/merge.h"
 
-#include <utility>
+#include <algorithm>
 
 namespace whittle {
-
-namespace {
-
-HalfSpaceTable table_for(const Box& region, double tolerance) {
-  return {max_component(region.size()) / 2, tolerance};
-}
-
-}  // namespace
 
 FaceMerger::FaceMerger(const Box& region, double tolerance, double together)
     : region_(region),
       tolerance_(std::max(tolerance, together)),
       together_(together),
-      table_(table_for(region, equal_tolerance(tolerance_, together))) {}
+      table_(max_component(region.size()) / 2, tolerance_) {}
+
+FaceMerger::Written FaceMerger::written_by(const Reach& primitive) {
+  return {{primitive.center, primitive.radius, primitive.width},
+          primitive.tolerance,
+          float(primitive.radius),
+          float(primitive.width),
+          float(primitive.ball_reach)};
+}
 
 Literal FaceMerger::add(const HalfSpace& face, const Reach& primitive, const Outline& outline) {
-  Reach fine = primitive;
-  fine.tolerance = equal_tolerance(primitive.tolerance, together_);
+  Reach equal = primitive;
+  equal.tolerance = equal_tolerance(primitive.tolerance, together_);
   if (face.is_plane()) {
     // Equal planes are equal everywhere, not only where one of the primitives is.
-    fine.center = region_.center();
-    fine.radius = 0.5 * region_.diagonal();
+    equal.center = region_.center();
+    equal.radius = 0.5 * region_.diagonal();
   }
-  const Literal literal = table_.add(face, fine, outline);
-  const Extent extent = {primitive.center, primitive.radius, primitive.width};
+  const Literal literal = table_.add(face, primitive, equal, outline);
+  const Written written = written_by(primitive);
   if (literal >> 1 == written_.size()) {
-    written_.push_back({primitive, extent});
+    written_.push_back(written);
   } else {
     Written& known = written_[literal >> 1];
-    known.extent = united(known.extent, extent);
-    if (primitive.tolerance > known.reach.tolerance) known.reach = primitive;
+    const Extent extent = united(known.extent, written.extent);
+    if (written.tolerance > known.tolerance) known = written;
+    known.extent = extent;
   }
   return literal;
 }
 
 FaceMerger::Merged FaceMerger::merge(const Outlines& outlines) {
   Merged merged;
-  HalfSpaceTable table = table_for(region_, tolerance_);
+  merged.half_spaces = table_.take();
   merged.literals.reserve(written_.size());
-  const std::vector<HalfSpace> half_spaces =
-      std::exchange(table_, table_for(region_, tolerance_)).take();
+  // Only those that may lie on others are looked at; the rest keep their order among them.
+  HalfSpaceTable table(max_component(region_.size()) / 2, tolerance_);
+  std::vector<uint32_t> number_of;  // of those in the table
+  uint32_t count = 0;
   for (uint32_t i = 0; i < written_.size(); ++i) {
-    const auto& [primitive, extent] = written_[i];
-    Reach all = primitive;
-    all.tolerance = joint_tolerance(primitive.tolerance, extent.width, together_);
-    if (half_spaces[i].is_plane()) {
-      all.center = extent.center;
-      all.radius = extent.radius;
+    const HalfSpace& half_space = merged.half_spaces[i];
+    uint32_t number = count;
+    Literal side = 0;
+    if (table_.is_crowded(i)) {
+      const Written& w = written_[i];
+      const double tolerance = joint_tolerance(w.tolerance, w.extent.width, together_);
+      const bool plane = half_space.is_plane();
+      const Reach all = {w.extent.center, plane ? w.extent.radius : double(w.radius),
+                         double(w.width), tolerance, double(w.ball_reach)};
+      const Literal literal = table.add(half_space, all, outlines(i));
+      if (literal >> 1 == number_of.size()) number_of.push_back(count);
+      number = number_of[literal >> 1];
+      side = literal & 1;
     }
-    merged.literals.push_back(table.add(half_spaces[i], all, outlines(i)));
+    if (number == count) merged.half_spaces[count++] = half_space;
+    merged.literals.push_back(Literal(number) * 2 + side);
   }
-  merged.half_spaces = table.take();
+  merged.half_spaces.resize(count);
   return merged;
 }
 

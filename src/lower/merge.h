@@ -37,9 +37,12 @@ class FaceMerger {
  private:
   /// Faces on one surface as it was written.
   struct Written {
-    Reach reach;    ///< of the primitive with the largest tolerance
-    Extent extent;  ///< of all their primitives
+    Extent extent;     ///< of all their primitives
+    double tolerance;  ///< the largest
+    // Of the primitive that has it, as Reach.
+    float radius, width, ball_reach;
   };
+  static Written written_by(const Reach& primitive);
 
   Box region_;
   double tolerance_, together_;

@@ -22,27 +22,29 @@ class PointIndex {
       link(uint32_t(places_.size() - 1));
   }
 
-  /// Calls visit(number, point) for all with low <= point <= high in every coordinate, in any
-  /// order, and perhaps more than once.
+  /// Calls visit(number) for all with low <= point <= high in every coordinate, in any order, and
+  /// perhaps more than once, until it returns false.
   template <class Visit>
   void visit(const Point& low, const Point& high, const Visit& visit) const {
     const auto look = [&](const Place& place) {
       for (int i = 0; i < 3; ++i)
-        if (!(low[i] <= place.point[i] && place.point[i] <= high[i])) return;
-      visit(place.number, place.point);
+        if (!(low[i] <= place.point[i] && place.point[i] <= high[i])) return true;
+      return visit(place.number);
     };
     const Cell from = cell_of(low), to = cell_of(high);
     double cells = 1;
     for (int i = 0; i < 3; ++i) cells *= double(to[i] - from[i]) + 1;
     if (!(cells <= double(places_.size()))) {
-      for (const Place& place : places_) look(place);
+      for (const Place& place : places_)
+        if (!look(place)) return;
       return;
     }
     Cell cell;
     for (cell[0] = from[0]; cell[0] <= to[0]; ++cell[0])
       for (cell[1] = from[1]; cell[1] <= to[1]; ++cell[1])
         for (cell[2] = from[2]; cell[2] <= to[2]; ++cell[2])
-          for (uint32_t i = head_[slot_of(cell)]; i != kNone; i = places_[i].next) look(places_[i]);
+          for (uint32_t i = head_[slot_of(cell)]; i != kNone; i = places_[i].next)
+            if (!look(places_[i])) return;
   }
 
  private:
