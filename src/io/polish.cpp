@@ -13,6 +13,9 @@ namespace {
 
 /// Half a unit of the sixth digit of an entry near 1, and a little for rounding.
 constexpr double kPrinted = 5.1e-7;
+/// Products of two columns of a rotation whose entries are off by that are off by no more than
+/// this: 2 sqrt(3) times as much.
+constexpr double kSkewness = 3.5 * kPrinted;
 
 /// Could "%.6g" have printed this entry of a rotation?
 bool has_six_digits(double x) {
@@ -28,10 +31,18 @@ bool has_six_digits(const Affine& a) {
   });
 }
 
-double largest_difference(const Affine& a, const Affine& b) {
-  double most = 0;
-  for (int i = 0; i < 3; ++i) most = std::max(most, max_component(abs(a.row[i] - b.row[i])));
-  return most;
+/// Could "%.6g" have printed `x` as `printed`?
+bool prints_as(double x, double printed) {
+  double digit = 1e-6;  // the sixth
+  while (digit > 1e-15 && std::fabs(printed) < 1e5 * digit) digit /= 10;
+  return std::fabs(x - printed) <= 0.51 * digit;
+}
+
+bool prints_as(const Affine& a, const Affine& printed) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (!prints_as(a.row[i][j], printed.row[i][j])) return false;
+  return true;
 }
 
 /// The largest entry of the linear part of a^T a - 1.
@@ -68,7 +79,7 @@ std::optional<Affine> by_angles(const Affine& r) {
   const double c = hundredths(upright ? std::atan2(-r.row[0].y, r.row[1].y)
                                       : std::atan2(r.row[1].x, r.row[0].x));
   const Affine turned = turn(a, b, c);
-  if (!(largest_difference(turned, r) <= kPrinted)) return std::nullopt;
+  if (!prints_as(turned, r)) return std::nullopt;
   return turned;
 }
 
@@ -89,7 +100,7 @@ Affine nearest_rotation(Affine x) {
 }  // namespace
 
 Affine polished(const Affine& map) {
-  if (!map.is_finite() || !(skewness(map) <= 8 * kPrinted) || !has_six_digits(map)) return map;
+  if (!map.is_finite() || !(skewness(map) <= kSkewness) || !has_six_digits(map)) return map;
   const bool mirrored = map.determinant() < 0;
   const Affine mirror = scaling({mirrored ? -1.0 : 1.0, 1, 1});
   Affine rotation = map * mirror;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/extent.h"
+
 namespace whittle {
 namespace {
 
@@ -15,6 +17,29 @@ constexpr double kCellsPerUnit = 64;
 /// Normals of a group differ by no more than this in any coordinate: far above rounding, and so
 /// little that across the region it is a small part of the tolerance.
 constexpr double kSameNormal = 1e-9;
+
+Vec3 middle_of(std::span<const Vec3> ring) {
+  Vec3 sum;
+  for (const Vec3& p : ring) sum += p;
+  return sum / double(ring.size());
+}
+
+/// Whether two neighbouring rings of an outline lie on either nappe of the double cone f = 0, on
+/// which the outline is. Then the apex is between them: along the axis f slopes the other way at
+/// the other ring, and from ring to ring by more than across the ring's radius. (The slopes along a
+/// cylinder are rounding.)
+bool is_on_both_nappes(const HalfSpace& h, std::span<const Vec3> outline) {
+  for (size_t i = 0; i + 2 * kRingPoints <= outline.size(); i += kRingPoints) {
+    const auto ring = outline.subspan(i, kRingPoints), next = outline.subspan(i + kRingPoints);
+    const Vec3 middle = middle_of(ring), along = middle_of(next.first(kRingPoints)) - middle;
+    const Vec3 gradient = K::quadric_half_gradient(h.f, ring[0] - h.center);
+    const double here = dot(gradient, along);
+    const double there = dot(K::quadric_half_gradient(h.f, next[0] - h.center), along);
+    if (here * there < 0 && std::fabs(here) > std::fabs(dot(gradient, ring[0] - middle)))
+      return true;
+  }
+  return false;
+}
 
 /// Frobenius norm of the second-degree part.
 double curvature(const K::Quadric& f) {
@@ -90,8 +115,10 @@ bool HalfSpaceTable::same_curve(uint32_t number, const Reach& reach, const Outli
     const double gradient = 2 * length(K::quadric_half_gradient(known.f, q));
     return std::fabs(K::quadric_value(known.f, q)) <= tolerance * gradient && gradient > 0;
   };
-  return outline(
-      [&](std::span<const Vec3> points) { return std::ranges::all_of(points, lies_on_it); });
+  return outline([&](std::span<const Vec3> points) {
+    return std::ranges::all_of(points, lies_on_it) &&
+           (reach.ball_reach > 0 || !is_on_both_nappes(known, points));
+  });
 }
 
 template <class Visit>

@@ -36,8 +36,10 @@ std::vector<Vec3> side_outline(const Cylinder& s) {
   for (const double f : {0.0, 0.5, 1.0}) {
     const double r = s.r1 + f * (s.r2 - s.r1);
     if (!(r > 0)) continue;
-    for (int k = 0; k < 8; ++k)
-      points.push_back({r * cos_degrees(45 * k), r * sin_degrees(45 * k), z0 + f * s.h});
+    for (size_t k = 0; k < kRingPoints; ++k) {
+      const double angle = 360.0 / kRingPoints * double(k);
+      points.push_back({r * cos_degrees(angle), r * sin_degrees(angle), z0 + f * s.h});
+    }
   }
   return points;
 }

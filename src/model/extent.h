@@ -20,9 +20,10 @@ struct Extent {
 };
 
 /// Points that stand for the surface of a shape, in its own coordinates: the corners of a flat one,
-/// 26 points spread over a sphere, three rings of eight on the side of a cylinder or cone (without
-/// its apex). None for a half-space.
+/// 26 points spread over a sphere, three rings of kRingPoints on the side of a cylinder or cone
+/// (without its apex). None for a half-space.
 std::vector<Vec3> outline(const Shape& shape);
+inline constexpr size_t kRingPoints = 8;
 
 /// Precondition: the shape is not empty and the map not singular.
 Extent extent(const Shape& shape, const Affine& map);

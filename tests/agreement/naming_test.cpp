@@ -59,6 +59,11 @@ TEST(Naming, CirclesOnTheTwoNappesOfAConeAreNoWallOfIt) {
   // Only the discs below are one plane.
   EXPECT_EQ(expect_same_names(cone + "cylinder(h = 18, r1 = 2, r2 = 4);"), 1u);
   EXPECT_EQ(expect_same_names(cone + "cylinder(h = 18, r1 = 2, r2 = 0);"), 1u);
+  // Flat ones, whose surfaces hardly differ as numbers.
+  EXPECT_EQ(expect_same_names("multmatrix([[1,0,0,0],[0,1,0,0],[0,0,0.01,0],[0,0,0,1]]) {"
+                              "cylinder(h = 1, r1 = 0, r2 = 1, center = true);"
+                              "cylinder(h = 3, r1 = 1, r2 = 0, center = true); }"),
+            0u);
   // A piece of the same nappe is the same wall.
   EXPECT_EQ(expect_same_names(cone + "cylinder(h = 3, r1 = 2, r2 = 1);"), 2u);
 }
