@@ -62,7 +62,8 @@ TEST(Naming, CirclesOnTheTwoNappesOfAConeAreNoWallOfIt) {
   // Flat ones, whose surfaces hardly differ as numbers.
   EXPECT_EQ(expect_same_names("multmatrix([[1,0,0,0],[0,1,0,0],[0,0,0.01,0],[0,0,0,1]]) {"
                               "cylinder(h = 1, r1 = 0, r2 = 1, center = true);"
-                              "cylinder(h = 3, r1 = 1, r2 = 0, center = true); }"),
+                              "cylinder(h = 3, r1 = 1, r2 = 0, center = true);"
+                              "translate([5, 0, 0]) cylinder(h = 1, r1 = 2, r2 = 1); }"),
             0u);
   // A piece of the same nappe is the same wall.
   EXPECT_EQ(expect_same_names(cone + "cylinder(h = 3, r1 = 2, r2 = 1);"), 2u);
