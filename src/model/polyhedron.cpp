@@ -206,12 +206,12 @@ double stray(const Box& box) {
   return std::max(kLeastStray * box.diagonal(), std::hypot(e[0], e[1], e[2]));
 }
 
-/// The corner that is farthest off the plane of its face, and how far.
+/// The corner that is farthest off the plane of its face, the first of several, and how far.
 std::pair<uint32_t, double> bend(const Surface& surface, const Face& face) {
   std::pair<uint32_t, double> most{face.loop[0], 0};
   for (const uint32_t i : face.loop) {
     const double off = std::fabs(dot(face.normal, surface.points[i] - face.middle));
-    if (off > most.second) most = {i, off};
+    if (off > most.second * (1 + 1e-9)) most = {i, off};
   }
   return most;
 }
