@@ -70,15 +70,71 @@ TEST(CsgMistakes, AreNamedWithTheirPlaces) {
   for (const auto& [text, expected] : cases) EXPECT_EQ(read_bad(text), "t.csg:" + expected) << text;
 }
 
-TEST(CsgMistakes, APolyhedronThatIsNotConvexIsRefused) {
-  // A cube with one corner pushed to its middle.
-  const std::string text =
-      "cube();\n polyhedron(points = "
-      "[[0,0,0],[9,0,0],[9,9,0],[0,9,0],[0,0,9],[9,0,9],[5,5,5],[0,9,9]],"
-      " faces = [[0,1,2,3],[4,5,1,0],[5,6,2],[5,2,1],[6,7,3],[6,3,2],[7,4,0,3],[4,7,6],[4,6,5]]);";
-  const std::string message = read_bad(text);
-  EXPECT_TRUE(message.starts_with("t.csg:2:2: error: this polyhedron cannot be used: ")) << message;
-  EXPECT_NE(message.find("not convex"), std::string::npos) << message;
+// A cube with one corner pushed to its middle.
+constexpr std::string_view kDented =
+    "polyhedron(points = [[0,0,0],[9,0,0],[9,9,0],[0,9,0],[0,0,9],[9,0,9],[5,5,5],[0,9,9]], faces "
+    "= [[0,1,2,3],[4,5,1,0],[5,6,2],[5,2,1],[6,7,3],[6,3,2],[7,4,0,3],[4,7,6],[4,6,5]]);";
+constexpr std::string_view kOpen =
+    "polyhedron(points = [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], faces = [[0,1,2],[0,3,1],[1,3,2]]);";
+/// A cube whose top is bent.
+constexpr std::string_view kBent =
+    "polyhedron(points = [[0,0,0],[9,0,0],[9,9,0],[0,9,0],[0,0,9],[9,0,9],[9,9,9.5],[0,9,9]], "
+    "faces = [[0,1,2,3],[4,5,1,0],[7,6,5,4],[5,6,2,1],[6,7,3,2],[7,4,0,3]]);";
+
+TEST(CsgMistakes, APolyhedronThatIsNotConvexIsLeftOut) {
+  const Read read = read_good("cube(); hull();\n " + std::string(kDented) + "sphere();");
+  EXPECT_EQ(tree(read.model), "U(c1 p2 s3)");
+  EXPECT_TRUE(is_empty(read.model.primitives[1].shape));
+  ASSERT_EQ(read.warnings.size(), 2u);
+  const std::string& warning = read.warnings[1];
+  EXPECT_TRUE(
+      warning.starts_with("t.csg:2:2: warning: this polyhedron is not supported yet, nothing "
+                          "is shown for it: it is not convex: point "))
+      << warning;
+  ASSERT_TRUE(read.unsupported);
+  EXPECT_EQ(read.unsupported->message, "'hull' is not supported yet") << "the first one";
+}
+
+TEST(CsgMistakes, APolyhedronThatIsLeftOutIsNotSupported) {
+  const Read read = read_good(std::string(kOpen) + " hull();");
+  ASSERT_EQ(read.warnings.size(), 2u);
+  ASSERT_TRUE(read.unsupported);
+  EXPECT_EQ(read.unsupported->where.column, 1u);
+  EXPECT_EQ(read.unsupported->message,
+            "this polyhedron is not supported yet: it is not closed: only face 0 has the edge from "
+            "point 2 to 0");
+  // It is an operand all the same.
+  EXPECT_EQ(tree(read_good("difference() { " + std::string(kOpen) + " cube(); }").model),
+            "U(D(p1 c2))");
+  // What is not drawn needs no word.
+  EXPECT_TRUE(read_good("*" + std::string(kOpen) + "cube();").warnings.empty());
+  EXPECT_TRUE(read_good("!cube();" + std::string(kOpen)).warnings.empty());
+}
+
+TEST(CsgMistakes, PolyhedraThatAreLeftOutAreCounted) {
+  std::string text;
+  for (int i = 0; i < 25; ++i) text += std::string(kOpen) + "\n";
+  const Read read = read_good(text);
+  ASSERT_EQ(read.warnings.size(), 21u);
+  EXPECT_EQ(read.warnings[20],
+            "t.csg: warning: 5 more times: a polyhedron is not supported yet, nothing is shown for "
+            "it");
+}
+
+TEST(CsgMistakes, APolyhedronWithABentFaceIsDrawnWithAWarning) {
+  const Read read = read_good(kBent);
+  EXPECT_FALSE(read.unsupported);
+  EXPECT_FALSE(is_empty(read.model.primitives[0].shape));
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_TRUE(read.warnings[0].starts_with("t.csg:1:1: warning: polyhedron: face 2 is not flat: "))
+      << read.warnings[0];
+  EXPECT_TRUE(read.warnings[0].ends_with("; it is cut so that the solid is convex"));
+}
+
+TEST(CsgMistakes, TrianglesOfBentFacesCountAsFacets) {
+  EXPECT_FALSE(is_empty(read_good(kBent, {.limits = {.facets = 7}}).model.primitives[0].shape));
+  EXPECT_TRUE(read_bad(kBent, {.limits = {.facets = 6}})
+                  .starts_with("t.csg:1:1: error: with this shape the model has 7 facets"));
 }
 
 TEST(CsgMistakes, LimitsAreNamed) {

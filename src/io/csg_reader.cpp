@@ -91,6 +91,7 @@ class CsgReader {
   bool add_primitive(const Statement& statement, uint32_t scope, Node& node);
   void choose_facets_of(uint32_t primitive, const GivenFragments& given);
 
+  void read_polyhedra();
   bool finish();
 
   /// Warns of what is not understood, and of what is done instead.
@@ -448,6 +449,23 @@ void CsgReader::assign_view(std::string_view name, const Value& value, SourceLoc
   }
 }
 
+void CsgReader::read_polyhedra() {
+  for (const PolyhedronNote& note : build_polyhedra(model_)) {
+    if (!note.left_out) {
+      warnings_.add("a polyhedron is not quite what its faces say", note.where,
+                    "polyhedron: " + note.what);
+      continue;
+    }
+    constexpr std::string_view kInstead = "is not supported yet, nothing is shown for it";
+    warnings_.add(fmt::format("a polyhedron {}", kInstead), note.where,
+                  fmt::format("this polyhedron {}: {}", kInstead, note.what));
+    if (!unsupported_ || note.where < unsupported_->where) {
+      unsupported_ = Unsupported{
+          note.where, fmt::format("this polyhedron is not supported yet: {}", note.what)};
+    }
+  }
+}
+
 bool CsgReader::finish() {
   model_.nodes[0].end = static_cast<uint32_t>(model_.nodes.size());
   for (const PendingCurve& curve : pending_) {
@@ -456,7 +474,11 @@ bool CsgReader::finish() {
   if (root_ != kNone) keep_subtree(model_, root_);
   remove_marked(model_);
   std::optional<Mistake> mistake = check_facets(model_, options_.limits.facets);
-  if (!mistake) mistake = build_polyhedra(model_);
+  if (!mistake) {
+    read_polyhedra();
+    // Faces that are not flat have become more.
+    mistake = check_facets(model_, options_.limits.facets);
+  }
   if (mistake) return lexer_.fail(mistake->where, std::move(mistake->message));
   for (std::string& warning : transform_warnings(model_)) {
     warnings_.add_full("a transform leaves nothing of what it moves", std::move(warning));

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "model/polyhedron.h"
@@ -42,16 +43,20 @@ std::optional<Mistake> check_facets(const Model& model, size_t limit) {
   return std::nullopt;
 }
 
-std::optional<Mistake> build_polyhedra(Model& model) {
+std::vector<PolyhedronNote> build_polyhedra(Model& model) {
+  std::vector<PolyhedronNote> notes;
   for (const Node& node : model.nodes) {
     if (node.kind != NodeKind::kPrimitive) continue;
     auto* const polyhedron = std::get_if<Polyhedron>(&model.primitives[node.payload].shape);
     if (!polyhedron) continue;
-    if (const std::optional<std::string> reason = build_planes(*polyhedron)) {
-      return Mistake{node.where, "this polyhedron cannot be used: " + *reason};
+    Verdict verdict = build_planes(*polyhedron);
+    if (!verdict.refusal.empty()) {
+      notes.push_back({node.where, true, std::move(verdict.refusal)});
+    } else if (!verdict.remark.empty()) {
+      notes.push_back({node.where, false, std::move(verdict.remark)});
     }
   }
-  return std::nullopt;
+  return notes;
 }
 
 }  // namespace whittle

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "io/csg_lexer.h"
 #include "model/model.h"
@@ -13,7 +15,14 @@ namespace whittle {
 /// facetted spheres and cylinders and of polyhedra.
 std::optional<Mistake> check_facets(const Model& model, size_t limit);
 
-/// Fills the planes of all polyhedra in the tree; a mistake at the first that is no convex solid.
-std::optional<Mistake> build_polyhedra(Model& model);
+/// What was found out about a polyhedron of the tree.
+struct PolyhedronNote {
+  SourceLocation where;
+  bool left_out = false;  ///< it is no convex solid, and empty now; else it is read as `what` says
+  std::string what;
+};
+
+/// Fills the planes of all polyhedra in the tree. The notes are in the order of the file.
+std::vector<PolyhedronNote> build_polyhedra(Model& model);
 
 }  // namespace whittle

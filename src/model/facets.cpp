@@ -153,6 +153,58 @@ struct Vertices {
   std::vector<Vec3> operator()(const Halfspace&) const { return {}; }
 };
 
+/// Calls `visit(corner)` for all corners less than `slack` below a plane that is above them all.
+template <class Visit>
+void all_near(const CornerTree& tree, const Plane& plane, double slack, Vec3 middle,
+              const Visit& visit) {
+  tree.search(
+      plane.n, middle, [&](double most_height, double) { return plane.d - most_height <= slack; },
+      [&](const CornerTree::Corner& corner) {
+        if (plane.d - dot(plane.n, corner.place) <= slack) visit(corner);
+      });
+}
+
+/// The boxes of a polyhedron whose planes stand off its corners. A point of a facet is then no
+/// farther than `slack` from some face, if no edge is much sharper than a right angle, and so from
+/// what of that face is less than `slack` below the plane; all that goes into the box.
+std::vector<Box> loose_facet_boxes(const Polyhedron& p, const Affine& map, double slack) {
+  std::vector<std::vector<uint32_t>> neighbours(p.points.size());
+  for (const auto& face : p.faces) {
+    if (face.size() < 3) continue;
+    for (size_t k = 0; k < face.size(); ++k) {
+      const uint32_t a = face[k], b = face[(k + 1) % face.size()];
+      neighbours[a].push_back(b);
+      neighbours[b].push_back(a);
+    }
+  }
+  Box whole;
+  for (size_t i = 0; i < p.points.size(); ++i)
+    if (!neighbours[i].empty()) whole.include(p.points[i]);
+  std::vector<CornerTree::Corner> corners;
+  for (uint32_t i = 0; i < p.points.size(); ++i)
+    if (!neighbours[i].empty()) corners.push_back({p.points[i], p.points[i] - whole.center(), i});
+  const CornerTree tree(std::move(corners));
+  const Vec3 margin = Vec3{length(map.row[0]), length(map.row[1]), length(map.row[2])} * slack;
+  std::vector<Box> boxes;
+  boxes.reserve(p.planes.size());
+  for (const Plane& plane : p.planes) {
+    Box& box = boxes.emplace_back();
+    all_near(tree, plane, slack, whole.center(), [&](const CornerTree::Corner& corner) {
+      box.include(map.point(corner.place));
+      const double above = plane.d - dot(plane.n, corner.place);
+      for (const uint32_t next : neighbours[corner.number]) {
+        const double below = plane.d - dot(plane.n, p.points[next]);
+        if (below <= slack) continue;
+        const double t = (slack - above) / (below - above);
+        box.include(map.point(corner.place + (p.points[next] - corner.place) * t));
+      }
+    });
+    box.lo -= margin;
+    box.hi += margin;
+  }
+  return boxes;
+}
+
 }  // namespace
 
 int fragments(double r, FragmentSettings settings) {
@@ -228,19 +280,16 @@ std::vector<Box> facet_boxes(const Shape& shape, const Affine& map) {
   }
   // A facet's corners are the vertices on its plane, to the precision of text.
   const double slack = 2e-5 * whole.diagonal();
+  if (const auto* s = std::get_if<Polyhedron>(&shape); s && 4 * s->rise > slack)
+    return loose_facet_boxes(*s, map, 4 * s->rise);
   std::vector<CornerTree::Corner> corners;
   corners.reserve(vertices.size());
   for (size_t v = 0; v < vertices.size(); ++v)
     corners.push_back({vertices[v], vertices[v] - whole.center(), uint32_t(v)});
   const CornerTree tree(std::move(corners));
   for (size_t f = 0; f < planes.size(); ++f) {
-    const Plane& plane = planes[f];
-    tree.search(
-        plane.n, whole.center(),
-        [&](double most_height, double) { return plane.d - most_height <= slack; },
-        [&](const CornerTree::Corner& corner) {
-          if (plane.d - dot(plane.n, corner.place) <= slack) add(f, corner.number);
-        });
+    all_near(tree, planes[f], slack, whole.center(),
+             [&](const CornerTree::Corner& corner) { add(f, corner.number); });
   }
   return boxes;
 }

@@ -1,11 +1,16 @@
 #include "model/facets.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
+
+#include "model/polyhedron.h"
 
 namespace whittle {
 namespace {
@@ -170,6 +175,57 @@ TEST(IsEmpty, SizesThatAreNone) {
 
 TEST(MessageAt, NamesThePlace) {
   EXPECT_EQ(message_at("a.csg", {3, 14}, "no."), "a.csg:3:14: no.");
+}
+
+// The planes of a ball that stands where six digits are coarse are off its corners, and each facet
+// is where the others leave something of its plane: every way out of the ball ends in a facet.
+TEST(Facets, BoxesHoldTheFacetsOfCoarsePolyhedra) {
+  for (const double offset : {0.0, 30.0, 800.0, 5000.0}) {
+    const Vec3 center = Vec3{1, 0.7, -0.9} * offset;
+    constexpr int kMeridians = 24, kRings = kMeridians / 2;
+    Polyhedron p;
+    for (const Vec3 v : facet_vertices(Sphere{.r = 6, .facets = kMeridians})) {
+      const Vec3 q = center + Vec3{v.x, v.y * 0.8 - v.z * 0.6, v.y * 0.6 + v.z * 0.8};
+      Vec3 printed;
+      for (int i = 0; i < 3; ++i) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.6g", q[i]);
+        printed[i] = std::atof(text);
+      }
+      p.points.push_back(printed);
+    }
+    const auto at = [](int ring, int k) { return uint32_t(ring * kMeridians + k % kMeridians); };
+    p.faces.resize(2);
+    for (int k = 0; k < kMeridians; ++k) {
+      p.faces[0].push_back(at(0, kMeridians - k));
+      p.faces[1].push_back(at(kRings - 1, k));
+      for (int i = 0; i + 1 < kRings; ++i) {
+        p.faces.push_back({at(i, k), at(i, k + 1), at(i + 1, k + 1)});
+        p.faces.push_back({at(i, k), at(i + 1, k + 1), at(i + 1, k)});
+      }
+    }
+    ASSERT_EQ(build_planes(p).refusal, "") << offset;
+    const Affine map{.row = {{1, 0.2, 0}, {0, 2, 0.3}, {0.1, 0, 0.5}}, .translation = {1, 2, 3}};
+    const std::vector<Box> boxes = facet_boxes(p, map);
+    ASSERT_EQ(boxes.size(), p.planes.size());
+    constexpr int kWays = 20000;
+    for (int i = 0; i < kWays; ++i) {
+      const double z = 1 - 2 * (i + 0.5) / kWays, r = std::sqrt(1 - z * z);
+      const Vec3 way{r * std::cos(2.4 * i), r * std::sin(2.4 * i), z};
+      size_t facet = 0;
+      double nearest = kInfinity;
+      for (size_t f = 0; f < p.planes.size(); ++f) {
+        const double slope = dot(p.planes[f].n, way);
+        if (!(slope > 0)) continue;
+        const double t = (p.planes[f].d - dot(p.planes[f].n, center)) / slope;
+        if (t < nearest) nearest = t, facet = f;
+      }
+      const Vec3 end = map.point(center + way * nearest);
+      const Vec3 margin = Vec3{1, 1, 1} * (0.05 * boxes[facet].diagonal());  // as lower() adds it
+      const Box box{boxes[facet].lo - margin, boxes[facet].hi + margin};
+      ASSERT_TRUE(box.contains(end)) << offset << " way " << i << " facet " << facet;
+    }
+  }
 }
 
 TEST(Facets, BoxesHoldTheFacets) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@ namespace whittle {
 struct SourceLocation {
   uint32_t line = 0;
   uint32_t column = 0;
+  auto operator<=>(const SourceLocation&) const = default;
 };
 
 /// A plane n.p = d with unit normal; as a half-space it holds the points with n.p <= d.
@@ -52,6 +54,7 @@ struct Polyhedron {
   std::vector<Vec3> points;
   std::vector<std::vector<uint32_t>> faces;  ///< vertex loops, clockwise seen from outside
   std::vector<Plane> planes;
+  double rise = 0;  ///< how far below its plane a corner of a facet may be; slivers apart
 };
 
 /// The points p with n.p <= d; n need not be unit. whittle's own extension of the dialect.
