@@ -1,10 +1,7 @@
 #include "io/scad.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,10 +14,9 @@
 #include <system_error>
 #include <utility>
 
+#include "io/child_process.h"
 #include "io/input_file.h"
 #include "io/pending_files.h"
-
-extern char** environ;
 
 namespace whittle {
 namespace {
@@ -96,30 +92,6 @@ std::optional<std::string> find_program(const char* name) {
   return std::nullopt;
 }
 
-/// Runs a program, its output and errors in the file `messages`. The status as of waitpid, or the
-/// error number in `error`.
-std::optional<int> run(const std::string& program, const char* const* arguments,
-                       const std::string& messages, int& error) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, messages.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t child = 0;
-  error = ::posix_spawn(&child, program.c_str(), &actions, nullptr,
-                        const_cast<char* const*>(arguments), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) return std::nullopt;
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0) {
-    if (errno == EINTR) continue;
-    error = errno;
-    return std::nullopt;
-  }
-  return status;
-}
-
 /// Several lines as one.
 std::string in_one_line(std::string_view text) {
   std::string line;
@@ -158,7 +130,7 @@ Result<Flattened> flatten_scad(const std::string& path) {
   const std::string csg = folder->csg();
   const char* const arguments[] = {"openscad", "-o", csg.c_str(), source.c_str(), nullptr};
   int error = 0;
-  const std::optional<int> status = run(*program, arguments, folder->messages(), error);
+  const std::optional<int> status = run_program(*program, arguments, folder->messages(), error);
   if (!status) {
     return failure(ErrorKind::kMachine, path,
                    fmt::format("{} cannot be run: {}", *program, reason(error)));
