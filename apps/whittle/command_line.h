@@ -51,6 +51,10 @@ void say_without_effect(const WithoutEffect& without_effect);
 /// --backend and --threads. OpenSCAD's own backends stand for `auto`, without effect.
 void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffect& without_effect);
 
+/// A device that is named is taken, so `auto` is the backend that has devices then; fails if
+/// another one was chosen. After the command line is read.
+Status settle_device(RendererSettings& settings);
+
 struct SubdivisionArguments {
   bool paper = false;
   std::optional<uint32_t> leaf_size;
