@@ -27,8 +27,8 @@ void add_loading_options(CLI::App& app, Loading& loading) {
 }
 
 void suit_style(Style style, Loading& loading) {
-  if (style == Style::kOpenscad && loading.curves == Curves::kAuto) {
-    loading.curves = Curves::kFacets;
+  if (style == Style::kOpenscad && loading.curves != Curves::kSmooth) {
+    loading.curves = Curves::kOpenscad2021;
   }
 }
 

@@ -22,7 +22,7 @@ struct Loading {
   bool quiet = false;
 };
 void add_loading_options(CLI::App& app, Loading& loading);
-/// What equals OpenSCAD's picture has OpenSCAD's facets, unless curves were chosen.
+/// What equals OpenSCAD's picture has OpenSCAD's facets, unless true curves were chosen.
 void suit_style(Style style, Loading& loading);
 ReadOptions read_options(const Loading& loading);
 /// Says the warnings; or with `strict` and anything that is not supported, the error for that.
