@@ -1,6 +1,6 @@
 // From .csg text to the model: the grammar, the modifiers, and the tree.
 //
-// file      = { statement | name "=" value ";" | ";" }
+// file      = { statement | name "=" value ";" | ";" | "{" file "}" }
 // statement = { "%" | "#" | "!" | "*" } name "(" arguments ")" ( ";" | statement | "{" file "}" )
 //
 // The stack of open statements is a vector, so depth costs memory and nothing else. Nodes are
@@ -44,6 +44,7 @@ struct OpenStatement {
   uint32_t operands = 0;   ///< children that are not background
   uint32_t scope = 0;      ///< index of the $fn, $fa, $fs for its children
   SourceLocation where{};  ///< of its `{`
+  bool is_block = false;   ///< braces without a statement: what is in them is around them
   bool single = false;     ///< one statement without braces is its only child
   bool drops_children = false;
   bool is_root = false;  ///< marked with `!`
@@ -81,6 +82,9 @@ class CsgReader {
   bool read_assignment(std::string_view name, SourceLocation where);
   void assign_view(std::string_view name, const Value& value, SourceLocation where);
   bool read_end_of_file();
+  bool open_block();
+  void close_braces();
+  bool admit_depth(SourceLocation where);
   bool open_children(const StatementType& type, OpenStatement open);
   void close(const OpenStatement& closed);
   void close_singles();
@@ -125,11 +129,9 @@ bool CsgReader::read_statements() {
     if (c == '\0') return read_end_of_file();
     if (c == '}' && !stack_.back().single) {
       if (stack_.size() == 1) return lexer_.fail(lexer_.location(), "no '{' is open for this '}'");
-      lexer_.advance();
-      const OpenStatement closed = stack_.back();
-      stack_.pop_back();
-      close(closed);
-      close_singles();
+      close_braces();
+    } else if (c == '{' && !stack_.back().single) {
+      if (!open_block()) return false;
     } else if (c == ';' && !stack_.back().single) {
       lexer_.advance();
     } else if (!read_statement()) {
@@ -147,6 +149,35 @@ bool CsgReader::read_end_of_file() {
                                 open.where.column));
   }
   return true;
+}
+
+bool CsgReader::open_block() {
+  OpenStatement block = stack_.back();
+  block.where = lexer_.location();
+  block.is_block = true;
+  if (!admit_depth(block.where)) return false;
+  lexer_.advance();
+  stack_.push_back(block);
+  return true;
+}
+
+void CsgReader::close_braces() {
+  lexer_.advance();
+  const OpenStatement closed = stack_.back();
+  stack_.pop_back();
+  if (closed.is_block) {
+    stack_.back().operands = closed.operands;
+  } else {
+    close(closed);
+    close_singles();
+  }
+}
+
+bool CsgReader::admit_depth(SourceLocation where) {
+  if (stack_.size() <= options_.limits.depth) return true;
+  return lexer_.fail(where, fmt::format("statements are nested deeper than the limit of {}; "
+                                        "--limit depth=N raises it",
+                                        options_.limits.depth));
 }
 
 bool CsgReader::read_statement() {
@@ -218,11 +249,7 @@ bool CsgReader::open_children(const StatementType& type, OpenStatement open) {
   if (open.single && c != '%' && c != '#' && c != '!' && c != '*' && !is_name_start(c)) {
     return expected("';', '{' or a statement");
   }
-  if (stack_.size() > options_.limits.depth) {
-    return lexer_.fail(open.where, fmt::format("statements are nested deeper than the limit of {}; "
-                                               "--limit depth=N raises it",
-                                               options_.limits.depth));
-  }
+  if (!admit_depth(open.where)) return false;
   if (!open.single) lexer_.advance();
   if (is_leaf(type.meaning) && !open.drops_children) {
     open.drops_children = true;
@@ -277,7 +304,8 @@ void CsgReader::close(const OpenStatement& closed) {
 
 bool CsgReader::add_node(const Statement& statement, Modifiers modifiers, std::string_view name,
                          uint32_t scope) {
-  if (model_.nodes.size() >= std::min<size_t>(options_.limits.nodes, kNone - 1)) {
+  // The first node is no statement but the file.
+  if (model_.nodes.size() > std::min<size_t>(options_.limits.nodes, kNone - 2)) {
     return lexer_.fail(
         statement.where,
         fmt::format("there are more statements than the limit of {}; --limit nodes=N raises it",
@@ -402,7 +430,7 @@ bool CsgReader::read_assignment(std::string_view name, SourceLocation where) {
   if (!read_value(lexer_, constants_, warnings_, arguments_)) return false;
   if (lexer_.peek() != ';') return expected_after_value(lexer_, "';'");
   lexer_.advance();
-  if (stack_.size() > 1) {
+  if (stack_.back().node != 0) {
     if (stack_.back().single) return lexer_.fail(where, "expected a statement, not an assignment");
     if (!stack_.back().drops_children) {
       warn_unsupported(where, "an assignment inside of a statement is not supported yet",
