@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
@@ -19,9 +18,9 @@
 
 #include "io/csg_lexer.h"
 #include "io/csg_statements.h"
+#include "io/csg_text.h"
 #include "io/csg_values.h"
 #include "io/flat_shapes.h"
-#include "io/input_file.h"
 #include "io/polish.h"
 #include "io/read.h"
 #include "io/tree_edit.h"
@@ -490,33 +489,6 @@ bool CsgReader::finish() {
     warnings_.add_full("a transform leaves nothing of what it moves", std::move(warning));
   }
   return true;
-}
-
-/// The text as it can be read, without a byte-order mark; or why it is no text.
-Result<std::string_view> check_text(std::string_view text, const std::string& file_name,
-                                    const ReadLimits& limits) {
-  const auto refuse = [&](SourceLocation where, std::string_view why) {
-    return Error{ErrorKind::kInput, message_at(file_name, where, fmt::format("error: {}", why))};
-  };
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
-    return refuse({1, 1}, "the file is UTF-16 text; save it as UTF-8");
-  }
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  if (text.size() > limits.bytes) {
-    return refuse(
-        {1, 1},
-        fmt::format("larger than the limit of {} bytes; --limit bytes=N raises it", limits.bytes));
-  }
-  if (text.size() > kMostTextBytes) return refuse({1, 1}, "larger than 4 GiB");
-  if (const size_t at = text.find('\0'); at != std::string_view::npos) {
-    SourceLocation where{1, 1};
-    for (const char c : text.substr(0, at)) {
-      where = c == '\n' ? SourceLocation{where.line + 1, 1}
-                        : SourceLocation{where.line, where.column + 1};
-    }
-    return refuse(where, "a NUL byte; this is not a text file");
-  }
-  return text;
 }
 
 }  // namespace
