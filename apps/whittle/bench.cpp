@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "base/printable.h"
 #include "base/timing.h"
 #include "base/workers.h"
 #include "command_line.h"
@@ -299,7 +300,7 @@ std::string table_of(const Json& m) {
   const auto count = [&](const char* name) { return m[name].get<uint64_t>(); };
   auto out = std::back_inserter(text);
   fmt::format_to(out, "{}: {} x {}, backend {}, {} threads, median of {}\n",
-                 m["file"].get<std::string>(), count("width"), count("height"),
+                 printable(m["file"].get<std::string>()), count("width"), count("height"),
                  m["backend"].get<std::string>(), count("threads"), count("repeat"));
   for (const char* stage : {"parse", "lower", "subdivide", "trace", "shade", "cold"}) {
     fmt::format_to(out, "  {:<12}{:>10.2f} ms\n", stage,
@@ -365,6 +366,7 @@ int bench_command(Arguments arguments) {
   if (std::ranges::find(a.files, "-") != a.files.end()) {
     return report({ErrorKind::kUsage, "standard input cannot be read again; bench wants files"});
   }
+  if (Status possible = settle_device(a.renderer); !possible) return report(possible.error());
   apply(a.subdivision, a.renderer);
 
   Json all = Json::array();

@@ -88,6 +88,8 @@ Status run(CellsArguments& a) {
     return Error{ErrorKind::kUsage, "backend oracle has no cells"};
   }
   if (Status possible = check_shadows(a.shading); !possible) return possible;
+  if (Status possible = settle_device(a.renderer); !possible) return possible;
+  if (Status possible = check_not_input(a.output, a.file); !possible) return possible;
   if (Status possible = check_writable(a.output); !possible) return possible;
   if (!a.loading.quiet) say_without_effect(a.without_effect);
   suit_style(a.shading.style, a.loading);
@@ -108,7 +110,7 @@ Status run(CellsArguments& a) {
   times.write = writing.milliseconds();
   times.total = watch.milliseconds();
   if (a.wants_statistics) {
-    say(statistics(read->model, *renderer, a.renderer.backend == Backend::kAuto, times));
+    say_lines(statistics(read->model, *renderer, a.renderer.backend == Backend::kAuto, times));
   }
   return Done{};
 }

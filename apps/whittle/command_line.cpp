@@ -27,8 +27,8 @@ void add_loading_options(CLI::App& app, Loading& loading) {
 }
 
 void suit_style(Style style, Loading& loading) {
-  if (style == Style::kOpenscad && loading.curves == Curves::kAuto) {
-    loading.curves = Curves::kFacets;
+  if (style == Style::kOpenscad && loading.curves != Curves::kSmooth) {
+    loading.curves = Curves::kOpenscad2021;
   }
 }
 
@@ -69,9 +69,11 @@ void add_view_options(CLI::App& app, ViewOptions& view) {
                    }
                    // Any number that a double holds is not one that an integer holds.
                    constexpr double kTooMuch = 1e9;
-                   const Status possible =
-                       check_picture_size(int64_t(std::clamp(width, -kTooMuch, kTooMuch)),
-                                          int64_t(std::clamp(height, -kTooMuch, kTooMuch)));
+                   if (std::fmax(std::fabs(width), std::fabs(height)) > kTooMuch) {
+                     refuse("--imgsize",
+                            fmt::format("wants sides of 1 to {}, not {}", kMostSide, text));
+                   }
+                   const Status possible = check_picture_size(int64_t(width), int64_t(height));
                    if (!possible) refuse("--imgsize", possible.error().message);
                    view.width = int(width);
                    view.height = int(height);
@@ -146,6 +148,13 @@ void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffec
       [&](bool culling) { settings.culling = culling; });
   group.add_count("--threads", "N", settings.threads, 0, kMostThreads,
                   "0 (all) to 1024; the picture is the same");
+}
+
+Status settle_device(RendererSettings& settings) {
+  if (settings.device.empty()) return Done{};
+  if (settings.backend == Backend::kAuto) settings.backend = Backend::kVulkanRaster;
+  if (settings.backend == Backend::kVulkanRaster) return Done{};
+  return Error{ErrorKind::kUsage, "--device names a device for --backend vulkan-raster"};
 }
 
 void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments) {
@@ -228,7 +237,7 @@ void add_openscad_options(CLI::App& app, WithoutEffect& without_effect) {
   // No heading: the help's last lines name them.
   OptionGroup group(app, "");
   for (const Ignored& ignored : kIgnored) {
-    group.add_each(ignored.name, "", "", [&without_effect, ignored](const std::string&) {
+    group.add_each(ignored.name, "VALUE", "", [&without_effect, ignored](const std::string&) {
       if (ignored.is_missed) without_effect.missed.emplace_back(ignored.name);
     });
   }

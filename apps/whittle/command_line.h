@@ -22,7 +22,7 @@ struct Loading {
   bool quiet = false;
 };
 void add_loading_options(CLI::App& app, Loading& loading);
-/// What equals OpenSCAD's picture has OpenSCAD's facets, unless curves were chosen.
+/// What equals OpenSCAD's picture has OpenSCAD's facets, unless true curves were chosen.
 void suit_style(Style style, Loading& loading);
 ReadOptions read_options(const Loading& loading);
 /// Says the warnings; or with `strict` and anything that is not supported, the error for that.
@@ -50,6 +50,10 @@ void say_without_effect(const WithoutEffect& without_effect);
 
 /// --backend and --threads. OpenSCAD's own backends stand for `auto`, without effect.
 void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffect& without_effect);
+
+/// A device that is named is taken, so `auto` is the backend that has devices then; fails if
+/// another one was chosen. After the command line is read.
+Status settle_device(RendererSettings& settings);
 
 struct SubdivisionArguments {
   bool paper = false;

@@ -66,6 +66,11 @@ int compare_command(Arguments arguments) {
   output.add_flag("-q,--quiet", quiet, "the exit code says it all");
   if (const std::optional<int> code = line.parse(arguments)) return *code;
 
+  for (const std::string& file : {file_a, file_b}) {
+    if (picture.empty()) break;
+    const Status possible = check_not_input(picture, file);
+    if (!possible) return report(possible.error());
+  }
   const Result<Frame> a = read_exr(file_a);
   if (!a) return report(a.error());
   const Result<Frame> b = read_exr(file_b);

@@ -3,13 +3,18 @@
 #include <cstdio>
 #include <string>
 
+#include "base/printable.h"
 #include "whittle/output.h"
 
 namespace whittle {
 
 void say(std::string_view line) {
+  say_lines(printable(line));
+}
+
+void say_lines(std::string_view lines) {
   // One call, so that lines of several threads or programs do not mix.
-  const std::string whole = std::string(line) + "\n";
+  const std::string whole = std::string(lines) + "\n";
   std::fwrite(whole.data(), 1, whole.size(), stderr);
 }
 

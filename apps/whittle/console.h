@@ -9,10 +9,13 @@ namespace whittle {
 
 inline constexpr int kExitDone = 0;
 
-/// One line to standard error.
+/// One line to standard error, whatever is in it (printable.h).
 void say(std::string_view line);
 
-/// Says the error, and returns the exit code for it.
+/// Several lines of our own, the last one's end left out.
+void say_lines(std::string_view lines);
+
+/// Says the error in one line, and returns the exit code for it.
 int report(const Error& error);
 
 /// Prints to standard output; the exit code, which is not 0 if nobody can read it.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/printable.h"
 #include "command_line.h"
 #include "commands.h"
 #include "console.h"
@@ -118,7 +119,7 @@ std::string describe_bounds(const Bounds& bounds) {
 std::string describe_text(const Read& read, const Info& info) {
   std::string text;
   const auto add = [&](const char* name, const std::string& value) {
-    fmt::format_to(std::back_inserter(text), "{:<12} {}\n", name, value);
+    fmt::format_to(std::back_inserter(text), "{:<12} {}\n", name, printable(value));
   };
   add("file", read.model.file);
   add("statements", fmt::format("{}", read.model.statement_count));

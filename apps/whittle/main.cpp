@@ -14,6 +14,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "io/child_process.h"
 #include "io/pending_files.h"
 #include "limits.h"
 #include "signals.h"
@@ -74,6 +75,7 @@ void keep_memory() {
     code = report({ErrorKind::kMachine, e.what()});
   } catch (...) {
   }
+  kill_programs();
   remove_pending_files();
   ::_exit(code);
 }

@@ -12,6 +12,10 @@
 namespace whittle {
 namespace {
 
+/// The group of options that the help does not list. (An option without any group has no name in
+/// CLI11's messages.)
+constexpr const char* kUnlisted = "unlisted";
+
 /// CLI11's help with our usage line.
 class HelpFormatter : public CLI::Formatter {
  public:
@@ -24,8 +28,16 @@ class HelpFormatter : public CLI::Formatter {
   /// One empty line between groups, not two.
   std::string make_help(const CLI::App* app, std::string name,
                         CLI::AppFormatMode mode) const override {
-    return CLI::detail::find_and_replace(CLI::Formatter::make_help(app, std::move(name), mode),
-                                         "\n\n\n", "\n\n");
+    std::string help = CLI::Formatter::make_help(app, std::move(name), mode);
+    while (help.find("\n\n\n") != std::string::npos) {
+      help = CLI::detail::find_and_replace(std::move(help), "\n\n\n", "\n\n");
+    }
+    return help;
+  }
+  std::string make_group(std::string group, bool is_positional,
+                         std::vector<const CLI::Option*> options) const override {
+    if (group == kUnlisted) return {};
+    return CLI::Formatter::make_group(std::move(group), is_positional, std::move(options));
   }
   /// Without what CLI11 says about types and multiplicity: our descriptions do.
   std::string make_option_opts(const CLI::Option* option) const override {
@@ -78,8 +90,9 @@ std::optional<int> CommandLine::parse(Arguments arguments) {
   } catch (const CLI::CallForVersion& version) {
     return print(std::string(version.what()) + "\n");
   } catch (const CLI::ParseError& mistake) {
-    return report(
-        {ErrorKind::kUsage, fmt::format("{}\nTry '{} --help'.", mistake.what(), app_->get_name())});
+    const int code = report({ErrorKind::kUsage, mistake.what()});
+    say(fmt::format("Try '{} --help'.", app_->get_name()));
+    return code;
   }
 }
 
@@ -125,6 +138,9 @@ int64_t parse_count(const char* option, std::string_view text, int64_t least, in
   }
   return int64_t(number);
 }
+
+OptionGroup::OptionGroup(CLI::App& app, const char* heading)
+    : app_(app), heading_(*heading == '\0' ? kUnlisted : heading) {}
 
 void OptionGroup::add_flag(const char* names, bool& given, const char* description) {
   app_.add_flag(names, given, description)->group(heading_);

@@ -72,7 +72,7 @@ class OptionGroup {
  public:
   /// Both must outlive this object; the heading, the app too. An empty heading keeps its options
   /// out of the help.
-  OptionGroup(CLI::App& app, const char* heading) : app_(app), heading_(heading) {}
+  OptionGroup(CLI::App& app, const char* heading);
 
   void add_flag(const char* names, bool& given, const char* description);
   void add_flag(const char* names, const std::function<void()>& given, const char* description);

@@ -96,6 +96,10 @@ Result<std::vector<Output>> choose_outputs(const RenderArguments& a) {
   std::vector<Output> outputs;
   for (const std::string& path : a.outputs) {
     Output output{path, FileFormat::kPng};
+    const auto is_standard = [](const Output& other) { return other.path == "-"; };
+    if (path == "-" && std::ranges::any_of(outputs, is_standard)) {
+      return Error{ErrorKind::kUsage, "-o - (standard output) is given more than once"};
+    }
     if (a.export_format) {
       output.format = *a.export_format;
     } else if (path == "-") {
@@ -151,7 +155,9 @@ Status render(RenderArguments& a) {
   const Result<std::vector<Output>> outputs = choose_outputs(a);
   if (!outputs) return outputs.error();
   if (Status possible = check_shadows(a.shading); !possible) return possible;
+  if (Status possible = settle_device(a.renderer); !possible) return possible;
   for (const Output& output : *outputs) {
+    if (Status possible = check_not_input(output.path, a.file); !possible) return possible;
     if (Status possible = check_writable(output.path); !possible) return possible;
   }
   if (!a.loading.quiet) say_without_effect(a.without_effect);
@@ -179,7 +185,7 @@ Status render(RenderArguments& a) {
   times.write = writing.milliseconds();
   times.total = watch.milliseconds();
   if (a.wants_statistics) {
-    say(statistics(model, *renderer, a.renderer.backend == Backend::kAuto, times));
+    say_lines(statistics(model, *renderer, a.renderer.backend == Backend::kAuto, times));
   }
   return Done{};
 }

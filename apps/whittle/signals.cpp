@@ -5,12 +5,15 @@
 
 #include <csignal>
 
+#include "io/child_process.h"
 #include "io/pending_files.h"
 
 namespace whittle {
 namespace {
 
 extern "C" void clean_up_and_end(int signal) {
+  // First what could make such files again.
+  kill_programs();
   remove_pending_files();
   // The default action was restored on the way here.
   ::raise(signal);

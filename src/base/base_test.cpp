@@ -2,6 +2,7 @@
 #include <rapidcheck.h>
 
 #include "base/box.h"
+#include "base/printable.h"
 #include "base/result.h"
 
 namespace whittle {
@@ -55,6 +56,14 @@ TEST(Box, EmptyIsNeutralForUnionAndWinsIntersection) {
   EXPECT_TRUE(intersect(b, Box{}).is_empty());
   EXPECT_TRUE(intersect(b, Box{{2, 0, 0}, {3, 1, 1}}).is_empty());
   EXPECT_TRUE(overlaps(b, Box{{1, 1, 1}, {2, 2, 2}}));
+}
+
+TEST(Printable, IsOneLineThatATerminalOnlyShows) {
+  EXPECT_EQ(printable("part 1.csg"), "part 1.csg");
+  EXPECT_EQ(printable("a\nb\r\x1b[31m\x7f\t"), "a?b??[31m??");
+  EXPECT_EQ(printable(std::string_view("a\0b", 3)), "a?b");
+  // U+0080 and U+009F are controls, U+00A0 and what is not UTF-8 are not.
+  EXPECT_EQ(printable("\xc2\x80\xc2\x9f\xc2\xa0\xc3\x9f\x9b\xc2"), "??\xc2\xa0\xc3\x9f\x9b\xc2");
 }
 
 TEST(Result, HoldsEitherAValueOrAnError) {

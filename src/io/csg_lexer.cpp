@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/printable.h"
+
 namespace whittle {
 namespace {
 
@@ -72,11 +74,8 @@ std::string quote(std::string_view word) {
   size_t length = std::min(word.size(), kLongest);
   // Not in the middle of a UTF-8 character.
   while (length < word.size() && length > 0 && (word[length] & 0xc0) == 0x80) --length;
-  std::string quoted(word.substr(0, length));
-  for (char& c : quoted) {
-    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = '?';
-  }
-  return fmt::format("'{}{}'", quoted, length < word.size() ? "..." : "");
+  return fmt::format("'{}{}'", printable(word.substr(0, length)),
+                     length < word.size() ? "..." : "");
 }
 
 bool CsgLexer::skip_rare_blank() {

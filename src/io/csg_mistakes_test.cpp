@@ -137,13 +137,24 @@ TEST(CsgMistakes, TrianglesOfBentFacesCountAsFacets) {
                   .starts_with("t.csg:1:1: error: with this shape the model has 7 facets"));
 }
 
+TEST(CsgMistakes, BracesAloneArePaired) {
+  EXPECT_EQ(read_bad("{cube();\n{"),
+            "t.csg:2:2: error: expected the '}' for the '{' of line 2, column 1 before the end of "
+            "the file");
+  EXPECT_EQ(read_bad("{cube();}}"), "t.csg:1:10: error: no '{' is open for this '}'");
+  EXPECT_EQ(read_bad("%{cube();}"), "t.csg:1:2: error: expected a statement before '{'");
+}
+
 TEST(CsgMistakes, LimitsAreNamed) {
+  EXPECT_EQ(read_bad("{{{", {.limits = {.depth = 2}}),
+            "t.csg:1:3: error: statements are nested deeper than the limit of 2; --limit depth=N "
+            "raises it");
   EXPECT_EQ(read_bad("group(){group(){group(){}}}", {.limits = {.depth = 2}}),
             "t.csg:1:24: error: statements are nested deeper than the limit of 2; --limit "
             "depth=N raises it");
   EXPECT_EQ(tree(read_good("group(){group(){cube();}}", {.limits = {.depth = 2}}).model), "U(c1)");
-  EXPECT_EQ(read_bad("cube();cube();cube();", {.limits = {.nodes = 3}}),
-            "t.csg:1:15: error: there are more statements than the limit of 3; --limit "
+  EXPECT_EQ(read_bad("cube();cube();cube();", {.limits = {.nodes = 2}}),
+            "t.csg:1:15: error: there are more statements than the limit of 2; --limit "
             "nodes=N raises it");
   EXPECT_EQ(
       read_bad("cube();\ncube([1, 2, [3]]);", {.limits = {.values = 4}}),

@@ -1,6 +1,6 @@
 // From .csg text to the model: the grammar, the modifiers, and the tree.
 //
-// file      = { statement | name "=" value ";" | ";" }
+// file      = { statement | name "=" value ";" | ";" | "{" file "}" }
 // statement = { "%" | "#" | "!" | "*" } name "(" arguments ")" ( ";" | statement | "{" file "}" )
 //
 // The stack of open statements is a vector, so depth costs memory and nothing else. Nodes are
@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <string>
@@ -19,9 +18,9 @@
 
 #include "io/csg_lexer.h"
 #include "io/csg_statements.h"
+#include "io/csg_text.h"
 #include "io/csg_values.h"
 #include "io/flat_shapes.h"
-#include "io/input_file.h"
 #include "io/polish.h"
 #include "io/read.h"
 #include "io/tree_edit.h"
@@ -44,6 +43,7 @@ struct OpenStatement {
   uint32_t operands = 0;   ///< children that are not background
   uint32_t scope = 0;      ///< index of the $fn, $fa, $fs for its children
   SourceLocation where{};  ///< of its `{`
+  bool is_block = false;   ///< braces without a statement: what is in them is around them
   bool single = false;     ///< one statement without braces is its only child
   bool drops_children = false;
   bool is_root = false;  ///< marked with `!`
@@ -81,6 +81,9 @@ class CsgReader {
   bool read_assignment(std::string_view name, SourceLocation where);
   void assign_view(std::string_view name, const Value& value, SourceLocation where);
   bool read_end_of_file();
+  bool open_block();
+  void close_braces();
+  bool admit_depth(SourceLocation where);
   bool open_children(const StatementType& type, OpenStatement open);
   void close(const OpenStatement& closed);
   void close_singles();
@@ -126,11 +129,9 @@ bool CsgReader::read_statements() {
     if (c == '\0') return read_end_of_file();
     if (c == '}' && !stack_.back().single) {
       if (stack_.size() == 1) return lexer_.fail(lexer_.location(), "no '{' is open for this '}'");
-      lexer_.advance();
-      const OpenStatement closed = stack_.back();
-      stack_.pop_back();
-      close(closed);
-      close_singles();
+      close_braces();
+    } else if (c == '{' && !stack_.back().single) {
+      if (!open_block()) return false;
     } else if (c == ';' && !stack_.back().single) {
       lexer_.advance();
     } else if (!read_statement()) {
@@ -148,6 +149,35 @@ bool CsgReader::read_end_of_file() {
                                 open.where.column));
   }
   return true;
+}
+
+bool CsgReader::open_block() {
+  OpenStatement block = stack_.back();
+  block.where = lexer_.location();
+  block.is_block = true;
+  if (!admit_depth(block.where)) return false;
+  lexer_.advance();
+  stack_.push_back(block);
+  return true;
+}
+
+void CsgReader::close_braces() {
+  lexer_.advance();
+  const OpenStatement closed = stack_.back();
+  stack_.pop_back();
+  if (closed.is_block) {
+    stack_.back().operands = closed.operands;
+  } else {
+    close(closed);
+    close_singles();
+  }
+}
+
+bool CsgReader::admit_depth(SourceLocation where) {
+  if (stack_.size() <= options_.limits.depth) return true;
+  return lexer_.fail(where, fmt::format("statements are nested deeper than the limit of {}; "
+                                        "--limit depth=N raises it",
+                                        options_.limits.depth));
 }
 
 bool CsgReader::read_statement() {
@@ -219,11 +249,7 @@ bool CsgReader::open_children(const StatementType& type, OpenStatement open) {
   if (open.single && c != '%' && c != '#' && c != '!' && c != '*' && !is_name_start(c)) {
     return expected("';', '{' or a statement");
   }
-  if (stack_.size() > options_.limits.depth) {
-    return lexer_.fail(open.where, fmt::format("statements are nested deeper than the limit of {}; "
-                                               "--limit depth=N raises it",
-                                               options_.limits.depth));
-  }
+  if (!admit_depth(open.where)) return false;
   if (!open.single) lexer_.advance();
   if (is_leaf(type.meaning) && !open.drops_children) {
     open.drops_children = true;
@@ -278,7 +304,8 @@ void CsgReader::close(const OpenStatement& closed) {
 
 bool CsgReader::add_node(const Statement& statement, Modifiers modifiers, std::string_view name,
                          uint32_t scope) {
-  if (model_.nodes.size() >= std::min<size_t>(options_.limits.nodes, kNone - 1)) {
+  // The first node is no statement but the file.
+  if (model_.nodes.size() > std::min<size_t>(options_.limits.nodes, kNone - 2)) {
     return lexer_.fail(
         statement.where,
         fmt::format("there are more statements than the limit of {}; --limit nodes=N raises it",
@@ -403,7 +430,7 @@ bool CsgReader::read_assignment(std::string_view name, SourceLocation where) {
   if (!read_value(lexer_, constants_, warnings_, arguments_)) return false;
   if (lexer_.peek() != ';') return expected_after_value(lexer_, "';'");
   lexer_.advance();
-  if (stack_.size() > 1) {
+  if (stack_.back().node != 0) {
     if (stack_.back().single) return lexer_.fail(where, "expected a statement, not an assignment");
     if (!stack_.back().drops_children) {
       warn_unsupported(where, "an assignment inside of a statement is not supported yet",
@@ -484,33 +511,6 @@ bool CsgReader::finish() {
     warnings_.add_full("a transform leaves nothing of what it moves", std::move(warning));
   }
   return true;
-}
-
-/// The text as it can be read, without a byte-order mark; or why it is no text.
-Result<std::string_view> check_text(std::string_view text, const std::string& file_name,
-                                    const ReadLimits& limits) {
-  const auto refuse = [&](SourceLocation where, std::string_view why) {
-    return Error{ErrorKind::kInput, message_at(file_name, where, fmt::format("error: {}", why))};
-  };
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
-    return refuse({1, 1}, "the file is UTF-16 text; save it as UTF-8");
-  }
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  if (text.size() > limits.bytes) {
-    return refuse(
-        {1, 1},
-        fmt::format("larger than the limit of {} bytes; --limit bytes=N raises it", limits.bytes));
-  }
-  if (text.size() > kMostTextBytes) return refuse({1, 1}, "larger than 4 GiB");
-  if (const size_t at = text.find('\0'); at != std::string_view::npos) {
-    SourceLocation where{1, 1};
-    for (const char c : text.substr(0, at)) {
-      where = c == '\n' ? SourceLocation{where.line + 1, 1}
-                        : SourceLocation{where.line, where.column + 1};
-    }
-    return refuse(where, "a NUL byte; this is not a text file");
-  }
-  return text;
 }
 
 }  // namespace

@@ -46,6 +46,22 @@ TEST(CsgReader, AChildNeedsNoBraces) {
             "U(D(T(c1) #T(s2)))");
 }
 
+TEST(CsgReader, BracesAloneGroupNothing) {
+  EXPECT_EQ(tree_of("{cube();}"), "U(c1)");
+  EXPECT_EQ(tree_of("{} {{}} {cube(); {sphere();}} cylinder();"), "U(c1 s2 y3)");
+  // OpenSCAD subtracts the sphere, too.
+  EXPECT_EQ(tree_of("difference(){ {cube(); {sphere();}} cylinder(); }"), "U(D(c1 s2 y3))");
+  EXPECT_EQ(tree_of("difference(){ {cube();} }"), "U(c1)");
+  EXPECT_EQ(tree_of("translate([1,0,0]) {{cube();}{sphere();}}"), "U(T(c1 s2))");
+  EXPECT_EQ(tree_of("*union(){ {cube();} } cube() {{sphere();}}"), "U(c2)");
+  // Names in them are the file's; inside of a statement they are not.
+  const Read named = read_good("{$fn = 7; x = 5;} cube(x); sphere();");
+  EXPECT_TRUE(named.warnings.empty());
+  EXPECT_EQ(std::get<Cube>(named.model.primitives[0].shape).size, (Vec3{5, 5, 5}));
+  EXPECT_EQ(std::get<Sphere>(named.model.primitives[1].shape).facets, 7);
+  EXPECT_TRUE(read_good("union(){{x = 5;} cube();}").unsupported);
+}
+
 TEST(CsgReader, NodesKnowTheirPlaces) {
   const Model model = read_good("union() {\n\t#cube();\n  sphere();}").model;
   ASSERT_EQ(tree(model), "U(U(#c1 s2))");

@@ -406,14 +406,18 @@ Rgba make_color(const Statement& statement, Warnings& warnings) {
   if (const Value* const c = argument(statement, 0); is_vector(c)) {
     float rgba[4] = {1, 1, 1, 1};
     int i = 0;
+    bool are_known = true, are_within = true;
     for (const Value* e = c->begin(); e != c->end() && i < 4; e += e->extent, ++i) {
-      const bool known = is_number(e) && std::isfinite(e->number);
-      rgba[i] = known ? static_cast<float>(e->number) : 0;
+      const bool is_known = is_number(e) && std::isfinite(e->number);
+      rgba[i] = is_known ? static_cast<float>(e->number) : 0;
+      are_known &= is_known;
       if (rgba[i] > 1 || (rgba[i] < 0 && rgba[i] != -1)) {
-        warn(statement, "a component is not between 0 and 1", warnings);
+        are_within = false;
         rgba[i] = rgba[i] > 1 ? 1.0f : -1.0f;
       }
     }
+    if (!are_known) warn(statement, "a component is not a number; it is read as 0", warnings);
+    if (!are_within) warn(statement, "a component is not between 0 and 1", warnings);
     color = {rgba[0], rgba[1], rgba[2], rgba[3]};
   } else if (c && c->kind == Value::Kind::kString) {
     if (const std::optional<Rgba> named = parse_color(c->text)) {
@@ -424,11 +428,11 @@ Rgba make_color(const Statement& statement, Warnings& warnings) {
           kind, statement.where,
           fmt::format("color: the name {} is not known; nothing is coloured", quote(c->text)));
     }
+  } else if (c && c->kind != Value::Kind::kUndef) {
+    warn(statement, "c is neither a name nor a vector; nothing is coloured", warnings);
   }
-  if (const Value* const alpha = argument(statement, 1); is_number(alpha)) {
-    color.a = std::isfinite(alpha->number) && alpha->number >= 0
-                  ? static_cast<float>(std::fmin(alpha->number, 1))
-                  : -1.0f;
+  if (const std::optional<double> alpha = read_number(statement, 1, warnings)) {
+    color.a = std::isfinite(*alpha) && *alpha >= 0 ? static_cast<float>(std::fmin(*alpha, 1)) : -1;
   }
   return color;
 }

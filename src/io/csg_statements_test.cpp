@@ -270,9 +270,28 @@ TEST(CsgStatements, Color) {
   }
 }
 
+TEST(CsgStatements, AColorIsWarnedOfOnce) {
+  const auto warnings = [](const std::string& arguments) {
+    return read_good("color(" + arguments + ") cube();").warnings;
+  };
+  EXPECT_EQ(
+      warnings("[2, -0.5, 1e300]"),
+      std::vector<std::string>{"t.csg:1:1: warning: color: a component is not between 0 and 1"});
+  EXPECT_EQ(warnings("[inf, \"a\", -5]"),
+            (std::vector<std::string>{
+                "t.csg:1:1: warning: color: a component is not a number; it is read as 0",
+                "t.csg:1:1: warning: color: a component is not between 0 and 1"}));
+  EXPECT_TRUE(warnings("").empty());
+  EXPECT_TRUE(warnings("undef, undef").empty());
+  EXPECT_TRUE(warnings("[-1, -1, -1, 1]").empty());
+}
+
 TEST(CsgStatements, ArgumentsOfAWrongTypeAreIgnoredWithAWarning) {
   const std::pair<const char*, const char*> cases[] = {
       {"sphere(\"big\");", "sphere: r is not a number; it is ignored"},
+      {"color(1) cube();", "color: c is neither a name nor a vector; nothing is coloured"},
+      {"color(true) cube();", "color: c is neither a name nor a vector; nothing is coloured"},
+      {"color(\"red\", \"half\") cube();", "color: alpha is not a number; it is ignored"},
       {"sphere(d = [1]);", "sphere: d is not a number; it is ignored"},
       {"cylinder(h = true);", "cylinder: h is not a number; it is ignored"},
       {"cylinder(r2 = \"a\");", "cylinder: r2 is not a number; it is ignored"},

@@ -1,7 +1,7 @@
 // Files that must not outlive an interrupted run: a list that a signal handler can act on.
 //
-// The one piece of state the program shares with itself: a signal handler can be given nothing
-// else.
+// State that the program shares with itself, as child_process.h is: a signal handler can be given
+// nothing else.
 #pragma once
 
 #include <string>

@@ -108,13 +108,43 @@ TEST_F(ReadFileTest, OpenscadIsGivenAbsolutePaths) {
 }
 
 TEST_F(ReadFileTest, WhatOpenscadSaysIsPassedOn) {
-  install_openscad("echo 'ERROR: syntax' >&2\necho \"Can't parse\" >&2\nexit 1\n");
+  install_openscad("echo 'WARNING: odd' >&2\necho \"Can't parse\" >&2\nexit 1\n");
   const std::string path = write("a.scad", "cube(");
   const Error error = error_of(path);
   EXPECT_EQ(error.kind, ErrorKind::kInput);
   EXPECT_EQ(error.message,
-            path + ": error: openscad cannot evaluate it: ERROR: syntax; Can't parse");
+            path + ": error: openscad cannot evaluate it: WARNING: odd; Can't parse");
   EXPECT_TRUE(fs::is_empty(folder_ / "tmp"));
+}
+
+TEST_F(ReadFileTest, TheFirstErrorOfOpenscadIsOneWithItsPlace) {
+  const std::string path = write("a.scad", "");
+  const std::string folder = path.substr(0, path.rfind('/') + 1);
+  const auto error_where_openscad_says = [&](const std::string& lines, int exit_code) {
+    install_openscad("cat >&2 <<'END'\n" + lines + "\nEND\necho 'cube();' > \"$2\"\nexit " +
+                     std::to_string(exit_code) + "\n");
+    const Error error = error_of(path);
+    EXPECT_EQ(error.kind, ErrorKind::kInput);
+    return error.message;
+  };
+  const std::string traced =
+      "WARNING: odd\nERROR: Assertion '(1 > 2)' failed: \"no\" in file a.scad, line 12\n"
+      "TRACE: called by 'm' in file a.scad, line 3\nERROR: more";
+  const std::string expected = path + ":12: error: openscad: Assertion '(1 > 2)' failed: \"no\"";
+  EXPECT_EQ(error_where_openscad_says(traced, 0), expected);
+  EXPECT_EQ(error_where_openscad_says(traced, 1), expected);
+  EXPECT_EQ(error_where_openscad_says("ERROR: x in file lib/b, line 1.scad, line 2", 0),
+            folder + "lib/b, line 1.scad:2: error: openscad: x");
+  EXPECT_EQ(error_where_openscad_says("ERROR: x in file /b.scad, line 2", 0),
+            "/b.scad:2: error: openscad: x");
+  EXPECT_EQ(error_where_openscad_says("ERROR: x in file , line 2", 0),
+            path + ":2: error: openscad: x");
+  EXPECT_EQ(error_where_openscad_says("ERROR: x in file a.scad, line two", 0),
+            path + ": error: openscad: x in file a.scad, line two");
+  EXPECT_EQ(error_where_openscad_says("ERROR: x, line 2 in file a.scad", 0),
+            path + ": error: openscad: x, line 2 in file a.scad");
+  install_openscad("echo 'ECHO: \"ERROR: x\"' >&2\necho 'cube();' > \"$2\"\n");
+  EXPECT_TRUE(bool(read_file(path)));
 }
 
 TEST_F(ReadFileTest, WhatAFailedOpenscadLeavesIsNotRead) {

@@ -1,10 +1,7 @@
 #include "io/scad.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,10 +14,9 @@
 #include <system_error>
 #include <utility>
 
+#include "io/child_process.h"
 #include "io/input_file.h"
 #include "io/pending_files.h"
-
-extern char** environ;
 
 namespace whittle {
 namespace {
@@ -96,30 +92,6 @@ std::optional<std::string> find_program(const char* name) {
   return std::nullopt;
 }
 
-/// Runs a program, its output and errors in the file `messages`. The status as of waitpid, or the
-/// error number in `error`.
-std::optional<int> run(const std::string& program, const char* const* arguments,
-                       const std::string& messages, int& error) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, messages.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t child = 0;
-  error = ::posix_spawn(&child, program.c_str(), &actions, nullptr,
-                        const_cast<char* const*>(arguments), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) return std::nullopt;
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0) {
-    if (errno == EINTR) continue;
-    error = errno;
-    return std::nullopt;
-  }
-  return status;
-}
-
 /// Several lines as one.
 std::string in_one_line(std::string_view text) {
   std::string line;
@@ -132,6 +104,49 @@ std::string in_one_line(std::string_view text) {
   }
   if (line.ends_with("; ")) line.resize(line.size() - 2);
   return line;
+}
+
+/// The place that a message of openscad's ends with, ` in file NAME, line NUMBER`, as `file:line`,
+/// and the message before it; the file's own name where it names none.
+struct Said {
+  std::string place;
+  std::string_view what;
+};
+
+Said split_place(std::string_view message, const std::string& path, const std::string& source) {
+  constexpr std::string_view kFile = " in file ", kLine = ", line ";
+  const size_t file = message.rfind(kFile), line = message.rfind(kLine);
+  if (file == std::string_view::npos || line == std::string_view::npos ||
+      line < file + kFile.size()) {
+    return {path, message};
+  }
+  const std::string_view number = message.substr(line + kLine.size());
+  if (number.empty() || number.find_first_not_of("0123456789") != std::string_view::npos) {
+    return {path, message};
+  }
+  const size_t name_start = file + kFile.size();
+  const std::string_view name = message.substr(name_start, line - name_start);
+  // openscad calls files as they are seen from the source's folder, and by where links lead.
+  const bool is_source = name.empty() || name == source.substr(source.rfind('/') + 1);
+  const std::string folder = name.starts_with('/') ? "" : path.substr(0, path.rfind('/') + 1);
+  return {fmt::format("{}:{}", is_source ? path : fmt::format("{}{}", folder, name), number),
+          message.substr(0, file)};
+}
+
+/// The first error among what openscad said. It goes on after one, without what comes then, and
+/// its exit code may be 0.
+std::optional<Error> first_error(std::string_view messages, const std::string& path,
+                                 const std::string& source) {
+  constexpr std::string_view kMark = "ERROR: ";
+  for (size_t start = 0; start < messages.size();) {
+    const size_t end = std::min(messages.find('\n', start), messages.size());
+    const std::string_view line = messages.substr(start, end - start);
+    start = end + 1;
+    if (!line.starts_with(kMark)) continue;
+    const Said said = split_place(line.substr(kMark.size()), path, source);
+    return failure(ErrorKind::kInput, said.place, "openscad: " + in_one_line(said.what));
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -150,6 +165,13 @@ Result<Flattened> flatten_scad(const std::string& path) {
   }
   const std::string source = resolved;
   std::free(resolved);
+  // openscad crashes on the one and says of the other that it can't open it.
+  struct stat about {};
+  const bool is_folder = ::stat(source.c_str(), &about) == 0 && S_ISDIR(about.st_mode);
+  if (is_folder || ::access(source.c_str(), R_OK) != 0) {
+    return failure(ErrorKind::kInput, path,
+                   "cannot be read: " + reason(is_folder ? EISDIR : errno));
+  }
   const std::optional<PrivateFolder> folder = PrivateFolder::create();
   if (!folder) {
     return failure(ErrorKind::kMachine, path, "no temporary folder: " + reason(errno));
@@ -158,7 +180,7 @@ Result<Flattened> flatten_scad(const std::string& path) {
   const std::string csg = folder->csg();
   const char* const arguments[] = {"openscad", "-o", csg.c_str(), source.c_str(), nullptr};
   int error = 0;
-  const std::optional<int> status = run(*program, arguments, folder->messages(), error);
+  const std::optional<int> status = run_program(*program, arguments, folder->messages(), error);
   if (!status) {
     return failure(ErrorKind::kMachine, path,
                    fmt::format("{} cannot be run: {}", *program, reason(error)));
@@ -166,6 +188,9 @@ Result<Flattened> flatten_scad(const std::string& path) {
   Flattened flattened;
   if (Result<std::string> messages = read_text(folder->messages())) {
     flattened.messages = std::move(*messages);
+  }
+  if (std::optional<Error> error_said = first_error(flattened.messages, path, source)) {
+    return *std::move(error_said);
   }
   Result<std::string> text = read_text(csg);
   if (*status != 0 || !text) {

@@ -223,6 +223,9 @@ int choose_facets(double r, FragmentSettings settings, Curves curves) {
   // A $fn that is not a number counts as given: OpenSCAD makes triangles of it.
   const bool is_curve = settings.fn <= 0;
   if (curves == Curves::kAuto && is_curve) return 0;
+  if (curves == Curves::kOpenscad2021 && !is_curve) {
+    settings.fn = std::floor(std::fmax(settings.fn, 3));
+  }
   const int n = fragments(r, settings);
   return n > kMaxFacets ? 0 : n;
 }

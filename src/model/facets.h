@@ -10,11 +10,12 @@
 
 namespace whittle {
 
-/// What `--curves` chooses.
+/// What `--curves` and the style choose.
 enum class Curves {
-  kAuto,    ///< $fn > 0 asks for facets and gets them; $fn = 0 is a true curve
-  kFacets,  ///< OpenSCAD's polyhedra everywhere
-  kSmooth,  ///< true curves everywhere
+  kAuto,          ///< $fn > 0 asks for facets and gets them; $fn = 0 is a true curve
+  kFacets,        ///< OpenSCAD's polyhedra everywhere
+  kSmooth,        ///< true curves everywhere
+  kOpenscad2021,  ///< kFacets as OpenSCAD 2021.01 has them: the fraction of $fn is cut off
 };
 
 /// OpenSCAD's special variables that rule the number of facets.

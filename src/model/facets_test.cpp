@@ -55,7 +55,17 @@ TEST(ChooseFacets, HonoursTheChoice) {
   EXPECT_EQ(choose_facets(10, none, Curves::kAuto), 0);
   EXPECT_EQ(choose_facets(10, none, Curves::kFacets), 30);
   EXPECT_EQ(choose_facets(10, eight, Curves::kSmooth), 0);
+  EXPECT_EQ(choose_facets(10, none, Curves::kOpenscad2021), 30);
   EXPECT_EQ(choose_facets(10, {.fn = 1e9}, Curves::kAuto), 0) << "finer than the tolerance";
+}
+
+TEST(ChooseFacets, CutsOffFractionsAsOpenscad2021Does) {
+  const double kFn[] = {0.5, 2.9, 3.2, 4.7, 4.999, 5.0001, 7.5, kInf, kNan};
+  const int kCutOff[] = {3, 3, 3, 4, 4, 5, 7, 3, 3}, kRoundedUp[] = {3, 3, 4, 5, 5, 6, 8, 3, 3};
+  for (size_t i = 0; i < std::size(kFn); ++i) {
+    EXPECT_EQ(choose_facets(3, {.fn = kFn[i]}, Curves::kOpenscad2021), kCutOff[i]) << kFn[i];
+    EXPECT_EQ(choose_facets(3, {.fn = kFn[i]}, Curves::kFacets), kRoundedUp[i]) << kFn[i];
+  }
 }
 
 TEST(Degrees, ExactWhereKnown) {

@@ -133,6 +133,22 @@ Status write_output(const std::string& path, std::string_view bytes) {
   return path == "-" ? write_standard_output(bytes) : write_file(path, bytes);
 }
 
+Status check_not_input(const std::string& output, const std::string& input) {
+  const auto look_at = [](const std::string& path, int standard, struct stat& status) {
+    return (path == "-" ? ::fstat(standard, &status) : ::stat(path.c_str(), &status)) == 0;
+  };
+  struct stat out {
+  }, in{};
+  // Terminals and pipes may well be both.
+  if (!look_at(output, STDOUT_FILENO, out) || !S_ISREG(out.st_mode) ||
+      !look_at(input, STDIN_FILENO, in) || out.st_dev != in.st_dev || out.st_ino != in.st_ino) {
+    return Done{};
+  }
+  return Error{
+      ErrorKind::kUsage,
+      fmt::format("-o {} is the file that is read, {}, which would be lost", output, input)};
+}
+
 Status check_writable(const std::string& path) {
   struct stat status {};
   // Opening a pipe or a device just to see would already do something to it.

@@ -34,4 +34,8 @@ Status write_output(const std::string& path, std::string_view bytes);
 /// Fails at once where write_output() would fail after the work: no such folder, no permission.
 Status check_writable(const std::string& path);
 
+/// A kUsage error if the output is the very file that is read, by whatever name, link or standard
+/// file ("-"): the picture would take its place.
+Status check_not_input(const std::string& output, const std::string& input);
+
 }  // namespace whittle

@@ -147,7 +147,7 @@ TEST(Solid, RefusesWhatPassesALimit) {
   LoadOptions depth, nodes, values, facets;
   depth.most_depth = 0;
   EXPECT_NE(refusal(depth).find("--limit depth"), std::string::npos);
-  nodes.most_nodes = 2;
+  nodes.most_nodes = 1;
   EXPECT_NE(refusal(nodes).find("--limit nodes"), std::string::npos);
   values.most_values = 3;
   EXPECT_NE(refusal(values).find("--limit values"), std::string::npos);

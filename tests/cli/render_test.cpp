@@ -318,6 +318,12 @@ TEST_F(Render, CurvesAreChosen) {
   EXPECT_GT(normals_of("auto", "round.csg"), 100u);
   EXPECT_LT(normals_of("auto", "round.csg", "openscad"), 20u);
   EXPECT_GT(normals_of("smooth", "round.csg", "openscad"), 100u);
+  // From above, a pyramid's sides.
+  write("sides.csg", "$vpr = [0, 0, 0]; cylinder(h = 5, r1 = 3, r2 = 0, $fn = 4.7);");
+  EXPECT_EQ(normals_of("auto", "sides.csg"), 5u);
+  EXPECT_EQ(normals_of("facets", "sides.csg"), 5u);
+  EXPECT_EQ(normals_of("auto", "sides.csg", "openscad"), 4u);
+  EXPECT_EQ(normals_of("facets", "sides.csg", "openscad"), 4u);
 }
 
 TEST_F(Render, ShadowsDarkenAndChangeNoFact) {

@@ -1,4 +1,6 @@
 // What the program says about itself and about command lines that are not right: exit code 2.
+#include <filesystem>
+
 #include "image/png.h"
 #include "support/program.h"
 
@@ -68,6 +70,90 @@ TEST_F(Usage, TheEndingOfTheOutputMustBeKnown) {
   EXPECT_EQ(standard.err, "whittle: -o - (standard output) needs --export-format png or exr\n");
 }
 
+TEST_F(Usage, StandardOutputHoldsOnePicture) {
+  const Ended twice =
+      run({"part.csg", "-o", "-", "-o", "x.png", "-o", "-", "--export-format", "png"});
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_EQ(twice.out, "");
+  EXPECT_EQ(twice.err, "whittle: -o - (standard output) is given more than once\n");
+  EXPECT_EQ(files(), std::vector<std::string>{"part.csg"});
+}
+
+TEST_F(Usage, TheInputIsNoOutput) {
+  const std::string text = read("part.csg");
+  std::filesystem::create_symlink("part.csg", path("link.png"));
+  std::filesystem::create_symlink(path("link.png"), path("chain.png"));
+  std::filesystem::create_hard_link(path("part.csg"), path("hard.png"));
+  const std::vector<std::string> before = files();
+  const auto expect_kept = [&](const std::vector<std::string>& arguments, const std::string& output,
+                               const std::string& input, const RunSettings& settings = {}) {
+    const Ended refused = run(arguments, settings);
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.err, "whittle: -o " + output + " is the file that is read, " + input +
+                               ", which would be lost\n");
+    EXPECT_EQ(read("part.csg"), text);
+    EXPECT_EQ(files(), before);
+  };
+  expect_kept({"part.csg", "-o", "x.png", "-o", "part.csg", "--export-format", "png"}, "part.csg",
+              "part.csg");
+  expect_kept({"link.png", "-o", "./link.png"}, "./link.png", "link.png");
+  for (const char* output : {"link.png", "chain.png", "hard.png"}) {
+    expect_kept({"part.csg", "-o", output}, output, "part.csg");
+    expect_kept({"cells", "part.csg", "-o", output}, output, "part.csg");
+    expect_kept({"compare", "x.exr", "part.csg", "-o", output}, output, "part.csg");
+    expect_kept({"compare", "part.csg", "x.exr", "-o", output}, output, "part.csg");
+  }
+  // What is no file of bytes may be both.
+  EXPECT_EQ(run({"/dev/null", "-o", "/dev/null", "--export-format", "png"}).exit_code, 0);
+}
+
+TEST_F(Usage, NamesInMessagesCommandNoTerminal) {
+  const std::string odd = "a\nb\x1b[31m.csg", shown = "a?b?[31m.csg";
+  write(odd, "hull() cube(1);\n");
+  EXPECT_EQ(
+      run({odd, "-o", "x.png", "--imgsize", "8,8"}).err,
+      shown + ":1:1: warning: 'hull' is not supported yet, shown as the union of its children\n");
+  EXPECT_EQ(run({odd, "-o", "x.png", "--strict"}).err,
+            shown + ":1:1: error: 'hull' is not supported yet (--strict)\n");
+  EXPECT_EQ(run({odd, "-o", odd}).err, "whittle: '" + shown +
+                                           "' does not end in .png or .exr, so its format is not "
+                                           "known\n");
+  EXPECT_EQ(run({"part.csg", "-o", "b\x1b/x.png"}).err,
+            "whittle: cannot write 'b?/x.png': No such file or directory\n");
+  EXPECT_EQ(run({"part.csg", "-o", "x.png", "--style", "\n\x1b"}).err,
+            "whittle: --style: unknown style '??'; there are: studio, blinn, openscad\n"
+            "Try 'whittle --help'.\n");
+  EXPECT_EQ(run({"info", odd}).out.find("file         " + shown + "\n"), 0u);
+  EXPECT_EQ(run({"bench", odd, "--imgsize", "8,8", "--repeat", "1"}).out.find(shown + ": 8 x 8"),
+            0u);
+}
+
+TEST_F(Usage, AnOptionWithoutItsValueIsNamed) {
+  for (const std::string option : {"--view", "-D", "--csglimit", "--summary-file"}) {
+    expect_refused({option}, option + ": 1 required VALUE missing");
+  }
+  expect_refused({"--imgsize"}, "--imgsize: 1 required W,H missing");
+}
+
+TEST_F(Usage, ADeviceIsOfVulkan) {
+  for (const char* backend : {"cpu", "oracle"}) {
+    const Ended refused =
+        run({"part.csg", "-o", "x.png", "--backend", backend, "--device", "nosuch"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.err, "whittle: --device names a device for --backend vulkan-raster\n");
+  }
+  // Named, it is asked for: then its backend is.
+  for (const char* command : {"", "cells", "bench"}) {
+    std::vector<std::string> arguments{"part.csg", "--device", "nosuch"};
+    if (*command != '\0') arguments.insert(arguments.begin(), command);
+    if (std::string(command) != "bench") arguments.insert(arguments.end(), {"-o", "x.png"});
+    const Ended none = run(arguments);
+    EXPECT_TRUE(none.exit_code == 2 || none.exit_code == 3) << none.exit_code;
+    EXPECT_NE(none.err.find("Vulkan"), std::string::npos) << none.err;
+  }
+  EXPECT_EQ(files(), std::vector<std::string>{"part.csg"});
+}
+
 TEST_F(Usage, WrongNumbersAreRefused) {
   expect_refused({"--imgsize", "64"}, "--imgsize: wants 2 numbers, not 1 ('64')");
   expect_refused({"--imgsize", "64,64,3"}, "--imgsize: wants 2 numbers, not 3 ('64,64,3')");
@@ -79,6 +165,9 @@ TEST_F(Usage, WrongNumbersAreRefused) {
   expect_refused({"--imgsize", "65535,65535"},
                  "--imgsize: a picture of 65535 x 65535 pixels is not possible: each side is 1 to "
                  "65535, and all together at most 268435456 pixels");
+  expect_refused({"--imgsize", "99999999999,1"},
+                 "--imgsize: wants sides of 1 to 65535, not 99999999999,1");
+  expect_refused({"--imgsize", "1,-1e300"}, "--imgsize: wants sides of 1 to 65535, not 1,-1e300");
   expect_refused({"--fov", "180"}, "--fov: wants an angle between 0 and 180, not 180");
   expect_refused({"--aa", "0"}, "--aa: wants a whole number, 1 to 16, not 0");
   expect_refused({"--threads", "-1"}, "--threads: wants a whole number, 0 to 1024, not -1");

@@ -5,7 +5,10 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <thread>
 
 #include "image/exr.h"
@@ -44,6 +47,89 @@ TEST_F(Interruption, WhileReading) {
     ::close(writer);
     expect_ended(done, signal, "pipe.csg");
   }
+}
+
+/// True if the process runs; one that has ended may still be listed, until it is asked for.
+bool runs(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const size_t name_end = text.rfind(") ");
+  return name_end != std::string::npos && text[name_end + 2] != 'Z';
+}
+
+class InterruptionOfOpenscad : public Interruption {
+ protected:
+  void SetUp() override {
+    Interruption::SetUp();
+    write("part.scad", "");
+    path_before_ = std::getenv("PATH");
+    fs::create_directory(path("bin"));
+    fs::create_directory(path("tmp"));
+    ::setenv("TMPDIR", path("tmp").c_str(), 1);
+    ::setenv("PATH", (path("bin") + ":" + path_before_).c_str(), 1);
+  }
+  void TearDown() override {
+    ::unsetenv("TMPDIR");
+    ::setenv("PATH", path_before_.c_str(), 1);
+  }
+
+  /// Puts a shell script in the place of openscad, which writes ids of processes to a file.
+  void install_openscad(const std::string& script) const {
+    write("bin/openscad", "#!/bin/sh\nids=" + path("ids") + "\n" + script);
+    fs::permissions(path("bin/openscad"), fs::perms::owner_all);
+  }
+
+  /// Runs on a program until there are that many ids, then ends the run; the processes.
+  std::vector<pid_t> run_until_ids(size_t count, int signal) {
+    fs::remove(path("ids"));
+    std::vector<pid_t> ids;
+    const Ended done = run_and_signal({"part.scad", "-o", "x.png"}, signal, [&] {
+      while (ids.size() < count) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        ids.clear();
+        std::ifstream file(path("ids"));
+        for (pid_t id = 0; file >> id;) ids.push_back(id);
+      }
+    });
+    EXPECT_EQ(done.signal, signal) << "exit code " << done.exit_code;
+    EXPECT_EQ(read("x.png"), "old");
+    return ids;
+  }
+
+  /// They are not there, or soon are not: nobody waits for what a killed process leaves behind.
+  static void expect_gone(const std::vector<pid_t>& processes) {
+    constexpr int kMostTries = 10'000;
+    for (const pid_t process : processes) {
+      for (int i = 0; i < kMostTries && runs(process); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+      EXPECT_FALSE(runs(process)) << process;
+      if (runs(process)) ::kill(process, SIGKILL);
+    }
+  }
+
+  std::string path_before_;
+};
+
+TEST_F(InterruptionOfOpenscad, EndsItAndAllThatItHasStarted) {
+  install_openscad("sleep 1000 &\necho $! $$ >$ids\nwait\n");
+  for (const int signal : kSignals) {
+    expect_gone(run_until_ids(2, signal));
+    EXPECT_TRUE(fs::is_empty(path("tmp")));
+  }
+}
+
+TEST_F(InterruptionOfOpenscad, EndsOneThatDoesNotListen) {
+  install_openscad("trap '' INT TERM HUP\necho $$ >$ids\nwhile :; do sleep 1; done\n");
+  for (const int signal : kSignals) {
+    expect_gone(run_until_ids(1, signal));
+    EXPECT_TRUE(fs::is_empty(path("tmp")));
+  }
+}
+
+TEST_F(InterruptionOfOpenscad, EndsItWhereTheProgramIsKilledOutright) {
+  install_openscad("echo $$ >$ids\nexec sleep 1000\n");
+  expect_gone(run_until_ids(1, SIGKILL));
 }
 
 TEST_F(Interruption, WhileSubdividing) {

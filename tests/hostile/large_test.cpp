@@ -28,6 +28,9 @@ const Large kFiles[] = {
      ":1:10000006: error: the statement has more values than the limit of 10000000; --limit "
      "values=N raises it\n",
      kLarge},
+    {"braces that open", "", "{", "", 1,
+     ":1:1000001: error: statements are nested deeper than the limit of 1000000; --limit depth=N "
+     "raises it\n"},
     {"braces that close", "", "}", "", 1, ":1:1: error: no '{' is open for this '}'\n"},
     {"ten million levels with braces", "", "group(){", "", 1,
      ":1:8000008: error: statements are nested deeper than the limit of 1000000; --limit depth=N "

@@ -37,8 +37,8 @@ TEST_F(LimitsOfFiles, AreNamedWithTheirValueAndTheWayToRaiseThem) {
   expect_limit("union() union() union() cube(1);", "depth", 2,
                ":1:25: error: statements are nested deeper than the limit of 2; --limit depth=N "
                "raises it");
-  expect_limit("cube(1);\nsphere(1);\n", "nodes", 2,
-               ":2:1: error: there are more statements than the limit of 2; --limit nodes=N raises "
+  expect_limit("cube(1);\nsphere(1);\n", "nodes", 1,
+               ":2:1: error: there are more statements than the limit of 1; --limit nodes=N raises "
                "it");
   expect_limit("cube([1, 2, 3]);", "values", 3,
                ":1:13: error: the statement has more values than the limit of 3; --limit values=N "
@@ -51,9 +51,9 @@ TEST_F(LimitsOfFiles, AreNamedWithTheirValueAndTheWayToRaiseThem) {
 TEST_F(LimitsOfFiles, CanBeGivenTogetherAndForEveryCommandThatReads) {
   write("part.csg", "union() cube([1, 2, 3]);");
   const std::string message =
-      "part.csg:1:9: error: there are more statements than the limit of 2; --limit nodes=N raises "
+      "part.csg:1:9: error: there are more statements than the limit of 1; --limit nodes=N raises "
       "it";
-  const std::vector<std::string> limits{"--limit", "nodes=2", "--limit", "depth=5"};
+  const std::vector<std::string> limits{"--limit", "nodes=1", "--limit", "depth=5"};
   for (std::vector<std::string> command : {std::vector<std::string>{"part.csg", "-o", "x.png"},
                                            {"info", "part.csg"},
                                            {"bench", "part.csg"}}) {

@@ -36,6 +36,8 @@ TEST_F(OddFiles, ThatCannotBeReadAreRefusedWithTheReason) {
   fs::create_directory(path("folder.csg"));
   expect_unreadable("folder.csg", "folder.csg: error: cannot be read: Is a directory");
   expect_unreadable(".", ".: error: cannot be read: Is a directory");
+  fs::create_directory(path("folder.scad"));
+  expect_unreadable("folder.scad", "folder.scad: error: cannot be read: Is a directory");
   write("part.csg", "cube(1);\n");
   expect_unreadable("part.csg/x.csg", "part.csg/x.csg: error: cannot be read: Not a directory");
   fs::create_symlink("two.csg", path("one.csg"));
@@ -46,10 +48,12 @@ TEST_F(OddFiles, ThatCannotBeReadAreRefusedWithTheReason) {
 }
 
 TEST_F(OddFiles, WithoutPermissionAreRefused) {
-  write("secret.csg", "cube(1);\n");
-  fs::permissions(path("secret.csg"), fs::perms::none);
-  expect_unreadable("secret.csg", "secret.csg: error: cannot be read: Permission denied",
-                    {.obeys_permissions = true});
+  for (const std::string file : {"secret.csg", "secret.scad"}) {
+    write(file, "cube(1);\n");
+    fs::permissions(path(file), fs::perms::none);
+    expect_unreadable(file, file + ": error: cannot be read: Permission denied",
+                      {.obeys_permissions = true});
+  }
 }
 
 TEST_F(OddFiles, AFolderWithoutPermissionIsNotWrittenTo) {
@@ -127,14 +131,29 @@ TEST_F(OddFiles, ProgramsThatIncludeThemselvesEnd) {
   write("two.scad", "use <one.scad>\ncube(1);\n");
   const Ended circle = run({"one.scad", "-o", "x.png", "--imgsize", "8,8"});
   EXPECT_EQ(circle.exit_code, 0) << circle.err;
-  fs::remove(path("x.png"));
-  const std::vector<std::string> before = files();
-  write("endless.scad", "module m(n) m(n + 1);\nm(0);\n");
-  const Ended endless = run({"endless.scad", "-o", "x.png"});
-  EXPECT_NE(endless.err.find("Recursion detected calling module 'm'"), std::string::npos)
-      << endless.err;
-  fs::remove(path("endless.scad")), fs::remove(path("x.png"));
-  EXPECT_EQ(files(), before);
+}
+
+TEST_F(OddFiles, ProgramsInWhichOpenscadFindsAnErrorAreRefused) {
+  write("x.png", "old");
+  const auto expect_error = [&](const std::string& text, const std::string& place,
+                                const std::string& message) {
+    write("part.scad", text);
+    expect_unreadable("part.scad", place + ": error: openscad: " + message);
+    EXPECT_EQ(read("x.png"), "old");
+  };
+  expect_error("cube(1);\nassert(false, \"no way\");", "part.scad:2",
+               "Assertion 'false' failed: \"no way\"");
+  expect_error("module a() { a(); }\na();\ncube(1);", "part.scad:1",
+               "Recursion detected calling module 'a'");
+  expect_error("module m(n) m(n + 1);\nm(0);\n", "part.scad:1",
+               "Recursion detected calling module 'm'");
+  expect_error("function f(x) = f(x + 1);\ncube(f(1));", "part.scad:1",
+               "Recursion detected calling function 'f'");
+  expect_error("cube(1);\ncube(;", "part.scad:2", "Parser error: syntax error");
+  fs::create_directory(path("lib"));
+  write("lib/check.scad", "\n\nassert(1 > 2);");
+  expect_error("include <lib/check.scad>\ncube(1);", "lib/check.scad:3",
+               "Assertion '(1 > 2)' failed");
 }
 
 }  // namespace
