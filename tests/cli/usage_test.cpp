@@ -121,7 +121,7 @@ TEST_F(Usage, NamesInMessagesCommandNoTerminal) {
   EXPECT_EQ(run({"part.csg", "-o", "b\x1b/x.png"}).err,
             "whittle: cannot write 'b?/x.png': No such file or directory\n");
   EXPECT_EQ(run({"part.csg", "-o", "x.png", "--style", "\n\x1b"}).err,
-            "whittle: --style: unknown style '??'; there are: studio, blinn, openscad\n"
+            "whittle: --style: unknown style '?\?'; there are: studio, blinn, openscad\n"
             "Try 'whittle --help'.\n");
   EXPECT_EQ(run({"info", odd}).out.find("file         " + shown + "\n"), 0u);
   EXPECT_EQ(run({"bench", odd, "--imgsize", "8,8", "--repeat", "1"}).out.find(shown + ": 8 x 8"),
