@@ -169,6 +169,10 @@ Result<Scene> lower(const Model& model) {
     const double tolerance = own_tolerance(scene.tolerance, extent, least_tolerance);
     const Reach reach = {extent.center, extent.radius,   extent.width,
                          tolerance,     lowered.outline, lowered.is_ball};
+    if (lowered.tip && !lowered.half_spaces.empty()) {
+      lowered.half_spaces[0].tip = uint32_t(scene.tips.size());
+      scene.tips.push_back(*lowered.tip);
+    }
     for (const HalfSpace& half_space : lowered.half_spaces)
       scene.faces.push_back({table.add(half_space, reach), number});
     unit.face_count = uint32_t(scene.faces.size()) - unit.first_face;
