@@ -220,7 +220,7 @@ TEST(OnTheLine, AnEyeInThePlaneOfAFaceOrBetweenCells) {
 /// makes no such promise.
 Answer beyond_the_eye(const Answer& answer) {
   return [answer](ExactRay ray) {
-    ray.t_min = 1e-9L;
+    ray.t_min = 1e-12L;
     return answer(ray);
   };
 }

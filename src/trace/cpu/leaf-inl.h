@@ -72,12 +72,12 @@ class LeavesInLanes {
                           Real t1) const;
   template <AlongKind kKind>
   static End end_at(L::AlongRay f, Real t);
-  template <AlongKind kKind>
-  Real on_surface(uint32_t half_space, size_t packet) const;
-  /// What the eye's neighbourhood is in t and in f.
+  /// The eye's neighbourhood: in t, in f, and how far ahead a ray looks where it goes.
   struct AtEye {
-    Real t, value;
+    Real t, value, ahead;
   };
+  template <AlongKind kKind>
+  AtEye at_eye(uint32_t half_space, size_t packet) const;
   Bool is_at_eye(const AtEye& eye, Real t, const End& end) const;
   End end_at_eye(const AtEye& eye, L::AlongRay f, Real t, End end) const;
 
@@ -228,7 +228,7 @@ HWY_INLINE LaneSigns LeavesInLanes::signs_between(uint32_t half_space, size_t pa
                                                   const L::AlongRay& f, Real t0, Real t1) const {
   End start = end_at<kKind>(f, t0), end = end_at<kKind>(f, t1);
   if (HWY_UNLIKELY(tile_.from_within)) {
-    const AtEye eye = {tile_.at_eye(packet), on_surface<kKind>(half_space, packet)};
+    const AtEye eye = at_eye<kKind>(half_space, packet);
     start = end_at_eye(eye, f, t0, start);
     end = end_at_eye(eye, f, t1, end);
     // A plane through the eye is not crossed again, and one that the ray runs in not at all: its
@@ -255,22 +255,24 @@ HWY_INLINE LeavesInLanes::End LeavesInLanes::end_at(L::AlongRay f, Real t) {
   return {value, value <= set(0), f.a * (t - f.about) + f.h < set(0)};
 }
 
-/// The most that |f| is where an eye stands on the surface. f is about a distance, but not near the
-/// tip of a cone, where it has no slope.
+/// f is about a distance. But near the tip of a cone it has no slope, and what is ahead of the eye
+/// is as near as the tip.
 template <AlongKind kKind>
-HWY_INLINE Real LeavesInLanes::on_surface(uint32_t half_space, size_t packet) const {
-  const Real least = set(kOnSurface * scene_.edge);
-  if (!is_cone(kKind)) return least;
+HWY_INLINE LeavesInLanes::AtEye LeavesInLanes::at_eye(uint32_t half_space, size_t packet) const {
+  const Real least = set(kOnSurface * scene_.edge), most = set(kAhead * scene_.edge);
+  if (!is_cone(kKind)) return {tile_.at_eye(packet), least, most};
   const Vec3 tip = scene_.half_spaces[half_space].center;
   const L::Vec3 o = tile_.origin(packet), d = tile_.direction(packet);
   const Real t = tile_.start(packet);
   const L::Vec3 q = {o.x + d.x * t - set(tip.x), o.y + d.y * t - set(tip.y),
                      o.z + d.z * t - set(tip.z)};
   const auto& f = scene_.scene.half_spaces[half_space].f;
-  const Real distance = L::sqrt(L::dot3(q, q)) + least;
   const Vec3 none;
-  return least * hn::Min(L::cone_most_slope({set(f.diag), set(f.off), set(none), set(0)}, distance),
-                         set(1));
+  const Real distance = L::sqrt(L::dot3(q, q));
+  const Real slope =
+      L::cone_most_slope({set(f.diag), set(f.off), set(none), set(0)}, distance + least);
+  const Real ahead = L::select(distance > least, hn::Min(set(kAhead) * distance, most), most);
+  return {tile_.at_eye(packet), least * hn::Min(slope, set(1)), ahead};
 }
 
 /// Is this end at the eye, and the eye on the half-space's surface?
@@ -283,7 +285,7 @@ HWY_INLINE Bool LeavesInLanes::is_at_eye(const AtEye& eye, Real t, const End& en
 HWY_INLINE LeavesInLanes::End LeavesInLanes::end_at_eye(const AtEye& eye, L::AlongRay f, Real t,
                                                         End end) const {
   const Bool on_surface = is_at_eye(eye, t, end);
-  const Bool falls = f.a * (t - f.about + set(kAhead * scene_.edge)) + f.h < set(0);
+  const Bool falls = f.a * (t - f.about + eye.ahead) + f.h < set(0);
   const auto choose = [&](Bool there, Bool else_there) {
     return hn::Or(hn::And(on_surface, there), hn::AndNot(on_surface, else_there));
   };

@@ -59,17 +59,21 @@ bool is_entered() { return true; }
 struct OnRay {
   AlongRay f;
   Real on_surface;  // the most that |f| is where an eye stands on the surface
+  Real ahead;       // so far ahead a ray looks from there where it goes
 };
-// f is about a distance,
-OnRay as_distance(AlongRay f) { return OnRay(f, view_on_surface()); }
-// but not near the tip of a cone, where it has no slope. o: the ray's origin from there.
+// f is about a distance.
+OnRay as_distance(AlongRay f) { return OnRay(f, view_on_surface(), view_ahead()); }
+// But near the tip of a cone it has no slope, and what is ahead of the eye is as near as the tip. o:
+// the ray's origin from there.
 OnRay from_tip(AlongRay along, Quadric f, Vec3 o) {
   OnRay r = as_distance(along);
   if (way_start > at_eye) return r;
   const Real t = view_start() - ray.shift;
   const Vec3 q = Vec3(o.x + ray.direction.x * t, o.y + ray.direction.y * t,
                       o.z + ray.direction.z * t);
-  r.on_surface *= pmin(K(1), cone_most_slope(f, sqrt(dot3(q, q)) + view_on_surface()));
+  const Real distance = sqrt(dot3(q, q));
+  if (distance > view_on_surface()) r.ahead = pmin(view_ahead(), K(1e-9) * distance);
+  r.on_surface *= pmin(K(1), cone_most_slope(f, distance + view_on_surface()));
   return r;
 }
 OnRay on_ray(uint half_space) {
@@ -106,9 +110,9 @@ Signs signs_of(OnRay on_ray) {
   if (t0 <= at_eye) {
     // Who stands on a surface has passed it: there the side is that of the way just ahead.
     const bool on0 = fabs_(value0) <= on_ray.on_surface;
-    if (on0) inside0 = falls0 = f.a * (t0 - f.about + view_ahead()) + f.h < K(0);
+    if (on0) inside0 = falls0 = f.a * (t0 - f.about + on_ray.ahead) + f.h < K(0);
     if (t1 <= at_eye && fabs_(value1) <= on_ray.on_surface)
-      inside1 = falls1 = f.a * (t1 - f.about + view_ahead()) + f.h < K(0);
+      inside1 = falls1 = f.a * (t1 - f.about + on_ray.ahead) + f.h < K(0);
     // A plane through the eye is not crossed again, and one that the ray runs in not at all.
     if (on0 && f.a == K(0)) inside0 = inside1;
   }
