@@ -79,6 +79,13 @@ class LeavesInLanes {
   template <AlongKind kKind>
   AtEye at_eye(uint32_t half_space, size_t packet) const;
   Bool is_at_eye(const AtEye& eye, Real t, const End& end) const;
+  struct Ends {
+    End start, end;
+  };
+  /// Not in the way of rays that come from outside.
+  template <AlongKind kKind>
+  HWY_NOINLINE Ends ends_at_eye(uint32_t half_space, size_t packet, L::AlongRay f, Real t0, Real t1,
+                                Ends ends) const;
   End end_at_eye(const AtEye& eye, L::AlongRay f, Real t, End end) const;
 
   void forget_at_eye();
@@ -228,13 +235,8 @@ HWY_INLINE LaneSigns LeavesInLanes::signs_between(uint32_t half_space, size_t pa
                                                   const L::AlongRay& f, Real t0, Real t1) const {
   End start = end_at<kKind>(f, t0), end = end_at<kKind>(f, t1);
   if (HWY_UNLIKELY(tile_.from_within)) {
-    const AtEye eye = at_eye<kKind>(half_space, packet);
-    start = end_at_eye(eye, f, t0, start);
-    end = end_at_eye(eye, f, t1, end);
-    // A plane through the eye is not crossed again, and one that the ray runs in not at all: its
-    // side is that of the way's end.
-    const Bool in_plane = hn::And(f.a == set(0), is_at_eye(eye, t0, start));
-    start.inside = hn::Or(hn::And(in_plane, end.inside), hn::AndNot(in_plane, start.inside));
+    const Ends ends = ends_at_eye<kKind>(half_space, packet, f, t0, t1, {start, end});
+    start = ends.start, end = ends.end;
   }
   const uint32_t inside = bits(start.inside), changes = inside ^ bits(end.inside);
   if (kKind == AlongKind::kPlane) return {inside, changes, 0};
@@ -273,6 +275,20 @@ HWY_INLINE LeavesInLanes::AtEye LeavesInLanes::at_eye(uint32_t half_space, size_
       L::cone_most_slope({set(f.diag), set(f.off), set(none), set(0)}, distance + least);
   const Real ahead = L::select(distance > least, hn::Min(set(kAhead) * distance, most), most);
   return {tile_.at_eye(packet), least * hn::Min(slope, set(1)), ahead};
+}
+
+template <AlongKind kKind>
+HWY_NOINLINE LeavesInLanes::Ends LeavesInLanes::ends_at_eye(uint32_t half_space, size_t packet,
+                                                            L::AlongRay f, Real t0, Real t1,
+                                                            Ends ends) const {
+  const AtEye eye = at_eye<kKind>(half_space, packet);
+  ends = {end_at_eye(eye, f, t0, ends.start), end_at_eye(eye, f, t1, ends.end)};
+  // A plane through the eye is not crossed again, and one that the ray runs in not at all: its
+  // side is that of the way's end.
+  const Bool in_plane = hn::And(f.a == set(0), is_at_eye(eye, t0, ends.start));
+  ends.start.inside =
+      hn::Or(hn::And(in_plane, ends.end.inside), hn::AndNot(in_plane, ends.start.inside));
+  return ends;
 }
 
 /// Is this end at the eye, and the eye on the half-space's surface?
