@@ -48,6 +48,12 @@ FN AlongRay make_along(Real a, Real h, Real k, Real about) {
   return r;
 }
 
+// No less than the slope of a cone's f, q from its tip.
+FN Real cone_most_slope(Quadric f, Real distance) {
+  Real squares = dot3(f.diag, f.diag) + K(2) * dot3(f.off, f.off);
+  return K(2) * sqrt(squares) * distance;
+}
+
 // A plane's: b is half its normal.
 FN AlongRay plane_along_ray(Vec3 b, Vec3 o, Vec3 d) {
   return make_along(K(0), dot3(b, d), K(2) * dot3(b, o), K(0));
@@ -78,7 +84,16 @@ FN AlongRay quadric_along_ray(Quadric f, Vec3 o, Vec3 d) {
   return make_along(dot3(ad, d), dot3(ad, o) + dot3(f.b, d), quadric_value(f, o), K(0));
 }
 
-// The same for a surface that is small beside o, or flat: squares of what is large would drown it
+// A cone's about its tip, where f has neither b nor c. Near the tip f is a difference of squares that
+// are as small as it is only about the place nearest to the tip.
+FN AlongRay cone_along_ray(Quadric f, Vec3 o, Vec3 d) {
+  Real near = K(0) - dot3(o, d);
+  Vec3 p = make_vec3(o.x + d.x * near, o.y + d.y * near, o.z + d.z * near);
+  Vec3 ad = quadric_apply(f, d);
+  return make_along(dot3(ad, d), dot3(ad, p), dot3(quadric_apply(f, p), p), near);
+}
+
+// quadric_along_ray for a surface that is small beside o, or flat: squares of what is large would drown it
 // in their rounding, so it is taken about a place next to it. That is where f is flat along the ray
 // (inside a flat body, where its largest terms vanish), unless this is far from the place nearest
 // to the centre, which is the better choice then.

@@ -213,6 +213,10 @@ Result<Scene> lower(const Model& model) {
     const Reach reach = {extent.center, extent.radius, extent.width, tolerance,
                          lowered.is_ball ? lowered.extent.radius : 0};
     const Outline its_outline = [&](const auto& test) { return test(lowered.outline); };
+    if (lowered.tip && !lowered.half_spaces.empty()) {
+      lowered.half_spaces[0].tip = uint32_t(scene.tips.size());
+      scene.tips.push_back(*lowered.tip);
+    }
     for (const HalfSpace& half_space : lowered.half_spaces)
       scene.faces.push_back({merger.add(half_space, reach, its_outline), number});
     unit.face_count = uint32_t(scene.faces.size()) - unit.first_face;

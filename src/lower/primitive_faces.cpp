@@ -85,6 +85,14 @@ struct Builder {
     out.half_spaces.push_back(quadric_half_space(f, local_from_object.point(middle), steepest));
     plane({{0, 0, -1}, -z_low}, middle);
     plane({{0, 0, 1}, z_high}, middle);
+    // A tip at an end is exactly there.
+    if (std::fabs(r) <= std::fabs(c.r2 - c.r1)) {
+      const double z_tip = c.r1 == 0   ? z_low
+                           : c.r2 == 0 ? z_high
+                                       : z_low + c.h * (c.r1 / (c.r1 - c.r2));
+      const Vec3 tip = local_from_object.point({0, 0, z_tip});
+      if (is_finite(tip)) out.tip = tip;
+    }
   }
 };
 
@@ -94,6 +102,7 @@ void lower_primitive(const Shape& shape, const Affine& local_from_object, Lowere
   out.half_spaces.clear();
   out.outline.clear();
   out.is_ball = false;
+  out.tip.reset();
   Builder builder{local_from_object, inverse(local_from_object), out};
   if (is_flat(shape)) {
     builder.flat(shape);

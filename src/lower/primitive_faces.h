@@ -1,6 +1,7 @@
 // The half-spaces whose conjunction is a primitive.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/affine.h"
@@ -16,6 +17,9 @@ struct LoweredPrimitive {
   Extent extent;
   std::vector<Vec3> outline;  ///< of its curved surface; empty if it has none
   bool is_ball = false;       ///< that surface is a sphere's, not a cylinder's or cone's
+  /// Of that surface, the first half-space, if it is a cone whose tip is no farther from the
+  /// primitive's middle than the primitive is high.
+  std::optional<Vec3> tip;
 };
 
 /// Lowers one shape (not empty) under an invertible transform. The true sphere is one quadric,

@@ -26,7 +26,10 @@ struct HalfSpace {
   Vec3 center;
   Kernels<double>::Quadric f;
   SurfaceKind kind = SurfaceKind::kQuadric;
+  uint32_t tip = kNoTip;  ///< of a cone that comes near it: into Scene::tips
 
+  static constexpr uint32_t kNoTip = UINT32_MAX;
+  bool has_tip() const { return tip != kNoTip; }
   bool is_plane() const { return kind == SurfaceKind::kPlane; }
 };
 
@@ -55,6 +58,7 @@ struct Scene {
   bool bounded = true;   ///< false: the solid may reach beyond the region
   double tolerance = 0;  ///< surfaces this close across are one (docs/conventions.md)
   std::vector<HalfSpace> half_spaces;
+  std::vector<Vec3> tips;  ///< of cones; about its tip a cone's f has the second degree alone
   std::vector<Face> faces;
   std::vector<Unit> units;
   std::vector<Box> face_boxes;  ///< where a facet is, grown by more than merging can have moved it

@@ -242,6 +242,30 @@ TEST_F(RasterAgreement, EyesAmongTheCells) {
   EXPECT_GT(agree(model, rules, cameras).hits, 10000);
 }
 
+// Views that show nothing but the tips of two cones, and eyes beside them.
+TEST_F(RasterAgreement, Tips) {
+  const Model model = model_of(
+      "cylinder(h = 10, r1 = 5, r2 = 0); translate([0, 0, 10]) cylinder(h = 10, r1 = 0, r2 = 5);"
+      "translate([-1000, 0, 0]) cube(1);",
+      "tips");
+  const Vec3 tip = {0, 0, 10};
+  std::vector<Camera> cameras;
+  const auto look = [&](Vec3 from, double half_height) {
+    Camera camera;
+    camera.eye = tip + from;
+    camera.forward = normalize(from * -1.0);
+    camera.right = normalize(cross(camera.forward, Vec3{0, 0, 1}));
+    camera.up = cross(camera.right, camera.forward);
+    camera.half_height = half_height;
+    camera.width = camera.height = 64;
+    cameras.push_back(camera);
+  };
+  for (const double half_height : {1e-5, 1e-8}) look({8, -6, 2}, half_height);
+  for (const double distance : {1e-2, 1e-5}) look(Vec3{0.3, -1, 0.01} * distance, 1.2);
+  const SubdivideSettings rules[] = {leaf_size(4)};
+  EXPECT_GT(agree(model, rules, cameras).hits, 4000);
+}
+
 // A camera that jumps finds cells that were seen where they are hidden now, and the other way
 // round.
 TEST_F(RasterAgreement, HiddenCellsAreLeftOutAndNothingElse) {

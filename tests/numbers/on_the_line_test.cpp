@@ -220,7 +220,7 @@ TEST(OnTheLine, AnEyeInThePlaneOfAFaceOrBetweenCells) {
 /// makes no such promise.
 Answer beyond_the_eye(const Answer& answer) {
   return [answer](ExactRay ray) {
-    ray.t_min = 1e-9L;
+    ray.t_min = 1e-12L;
     return answer(ray);
   };
 }
@@ -245,8 +245,9 @@ TEST(OnTheLine, AnEyeOnACurvedSurface) {
   const Answer answer = beyond_the_eye([](const ExactRay& ray) {
     return seen_of_union(ray, {sphere(1, ray, {}, 5), cone(2, ray, {20, 0, 0}, 2, 4)});
   });
-  for (const Vec3 eye : {Vec3{5, 0, 0}, Vec3{3, 4, 0}, Vec3{0, -3, 4}, Vec3{20, 0, 4},
-                         Vec3{21, 0, 2}, Vec3{20, -2, 0}}) {
+  for (const Vec3 eye :
+       {Vec3{5, 0, 0}, Vec3{3, 4, 0}, Vec3{0, -3, 4}, Vec3{20, 0, 4}, Vec3{21, 0, 2},
+        Vec3{20, -2, 0}, Vec3{20 + 0x1p-10, 0, 4 - 0x1p-9}, Vec3{20, -0x1p-20, 4 - 0x1p-19}}) {
     SCOPED_TRACE(testing::Message() << eye.x << ", " << eye.y << ", " << eye.z);
     for (const Vec3 ahead : {Vec3{3, 4, 0.5}, Vec3{-3, -4, -0.5}, Vec3{1, 0, 0}, Vec3{0, 1, -1}})
       expect_known(text, look(eye, eye + ahead, 90, 64, 48), answer);

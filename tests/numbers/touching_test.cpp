@@ -133,5 +133,63 @@ TEST(Touching, ConesAtTheirTips) {
   }
 }
 
+// At fields of view that show no more of a cone than its tip.
+TEST(Touching, ATipThatFillsThePicture) {
+  for (const double fov : {1e-4, 1e-5, 1e-6, 1e-7}) {
+    SCOPED_TRACE(fov);
+    const Answer pointed = [](const ExactRay& ray) {
+      return seen_of_union(ray, {cone(1, ray, {0, 0, 0}, 5, 10)});
+    };
+    const Camera camera = look({8, -6, 12}, {0, 0, 10}, fov);
+    const PictureCounts counts = expect_known("cylinder(h = 10, r1 = 5, r2 = 0);", camera, pointed);
+    // From the picture's middle down a triangle as wide as it is high, or almost.
+    EXPECT_NEAR(counts.hits, 24 * 24 / 2, 24);
+    // Turned over, so small that other arithmetic is chosen, and flat.
+    const Answer standing = [](const ExactRay& ray) {
+      return seen_of_union(ray, {cone(1, ray, {0, 0, 20}, 5, -10)});
+    };
+    expect_known("translate([0, 0, 10]) cylinder(h = 10, r1 = 0, r2 = 5);", camera, standing);
+    const Answer small = [](const ExactRay& ray) {
+      return seen_of_union(
+          ray, {cone(1, ray, {0, 0, 9.75L}, 0.125L, 0.25L), box(2, ray, {-9, -9, -9}, {9, 9, 9})});
+    };
+    expect_known(
+        "translate([0, 0, 9.75]) cylinder(h = 0.25, r1 = 0.125, r2 = 0); cube(18, center = true);",
+        camera, small);
+    const Answer flat = [](const ExactRay& ray) {
+      return seen_of_union(ray, {cone(1, ray, {0, 0, 9}, 64, 1)});
+    };
+    expect_known("translate([0, 0, 9]) cylinder(h = 1, r1 = 64, r2 = 0);",
+                 look({80, -60, 10.5}, {0, 0, 10}, fov), flat);
+  }
+}
+
+TEST(Touching, AnEyeNearTwoTips) {
+  const std::string glass =
+      "cylinder(h = 10, r1 = 5, r2 = 0);"
+      "translate([0, 0, 10]) cylinder(h = 10, r1 = 0, r2 = 5);";
+  const auto bodies = [](const ExactRay& ray) {
+    return std::vector{cone(1, ray, {0, 0, 0}, 5, 10), cone(2, ray, {0, 0, 20}, 5, -10)};
+  };
+  const Answer alone = [&](const ExactRay& ray) { return seen_of_union(ray, bodies(ray)); };
+  // The cones are a hundredth of the model, too.
+  const Answer in_large = [&](const ExactRay& ray) {
+    auto all = bodies(ray);
+    all.push_back(box(3, ray, {-1000, 0, 0}, {-999, 1, 1}));
+    return seen_of_union(ray, all);
+  };
+  const std::string large = glass + "translate([-1000, 0, 0]) cube(1);";
+  // Outside of both, inside of one, and level with the tips.
+  for (const Vec3 from_tip : {Vec3{0.3, -1, 0.003}, Vec3{0.25, 0.25, 1}, Vec3{-1, 0.5, 0}}) {
+    SCOPED_TRACE(testing::Message() << from_tip.x << ", " << from_tip.y << ", " << from_tip.z);
+    const Vec3 tip = {0, 0, 10};
+    for (const double distance : {1e-2, 1e-5, 1e-7}) {
+      SCOPED_TRACE(distance);
+      expect_known(glass, look(tip + from_tip * distance, tip, 100), alone);
+      expect_known(large, look(tip + from_tip * distance, tip, 100), in_large);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace whittle

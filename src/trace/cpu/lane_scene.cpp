@@ -13,7 +13,7 @@ constexpr double kSmall = 1.0 / 64;
 /// Half-spaces that one thread prepares in one go.
 constexpr size_t kEach = 4096;
 
-LaneHalfSpace in_lanes(const HalfSpace& h, double edge) {
+LaneHalfSpace in_lanes(const Scene& scene, const HalfSpace& h, double edge) {
   LaneHalfSpace result{h.center, h.f.b, h.f.c, AlongKind::kPlane};
   if (h.is_plane()) return result;
   // As f is scaled, 2 |c| is the radius, or the least one.
@@ -21,6 +21,9 @@ LaneHalfSpace in_lanes(const HalfSpace& h, double edge) {
   if (h.kind == SurfaceKind::kSphere) {
     result.kind = is_small ? AlongKind::kSmallSphere : AlongKind::kSphere;
     result.v = h.f.diag;
+  } else if (h.has_tip()) {
+    result.kind = is_small ? AlongKind::kSmallCone : AlongKind::kCone;
+    result.center = scene.tips[h.tip];
   } else if (is_small) {
     result.kind = AlongKind::kSmallQuadric;
   } else if (h.f.off == Vec3{} && h.f.b == Vec3{}) {
@@ -44,7 +47,8 @@ LaneScene::LaneScene(const Scene& scene_, const CellTree& tree_, const Workers* 
   const Vec3 grown = {half_margin, half_margin, half_margin};
   clip = {tree.region.lo - grown, tree.region.hi + grown};
   for_parts(workers, half_spaces.size(), kEach, [&](size_t first, size_t last, size_t) {
-    for (size_t i = first; i < last; ++i) half_spaces[i] = in_lanes(scene.half_spaces[i], edge);
+    for (size_t i = first; i < last; ++i)
+      half_spaces[i] = in_lanes(scene, scene.half_spaces[i], edge);
   });
 }
 

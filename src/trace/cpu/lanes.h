@@ -20,13 +20,19 @@ enum class AlongKind : uint64_t {
   kSmallSphere,
   kDiagonal,  ///< neither off nor b: ellipsoids and cylinders along the axes
   kQuadric,
-  kSmallQuadric
+  kSmallQuadric,
+  kCone,  ///< about its tip
+  kSmallCone
 };
+
+inline constexpr bool is_cone(AlongKind kind) {
+  return kind >= AlongKind::kCone;
+}
 
 /// A half-space as the lanes read it, a cache line each. Quadrics have the rest in the scene.
 struct alignas(64) LaneHalfSpace {
-  Vec3 center;
-  Vec3 v;  ///< plane: Quadric::b; sphere: v.x is the scale; kDiagonal: Quadric::diag
+  Vec3 center;  ///< cones: the tip
+  Vec3 v;       ///< plane: Quadric::b; sphere: v.x is the scale; kDiagonal: Quadric::diag
   double c = 0;
   AlongKind kind = AlongKind::kPlane;
 };

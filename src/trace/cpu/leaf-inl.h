@@ -68,11 +68,25 @@ class LeavesInLanes {
   template <AlongKind kKind>
   L::AlongRay along(uint32_t half_space, size_t packet) const;
   template <AlongKind kKind>
-  LaneSigns signs_between(size_t packet, const L::AlongRay& f, Real t0, Real t1) const;
+  LaneSigns signs_between(uint32_t half_space, size_t packet, const L::AlongRay& f, Real t0,
+                          Real t1) const;
   template <AlongKind kKind>
   static End end_at(L::AlongRay f, Real t);
-  Bool is_at_eye(Real at_eye, Real t, const End& end) const;
-  End end_at_eye(Real at_eye, L::AlongRay f, Real t, End end) const;
+  /// The eye's neighbourhood: in t, in f, and how far ahead a ray looks where it goes.
+  struct AtEye {
+    Real t, value, ahead;
+  };
+  template <AlongKind kKind>
+  AtEye at_eye(uint32_t half_space, size_t packet) const;
+  Bool is_at_eye(const AtEye& eye, Real t, const End& end) const;
+  struct Ends {
+    End start, end;
+  };
+  /// Not in the way of rays that come from outside.
+  template <AlongKind kKind>
+  HWY_NOINLINE Ends ends_at_eye(uint32_t half_space, size_t packet, L::AlongRay f, Real t0, Real t1,
+                                Ends ends) const;
+  End end_at_eye(const AtEye& eye, L::AlongRay f, Real t, End end) const;
 
   void forget_at_eye();
   void solve(CellKind kind, const Leaf& leaf);
@@ -184,7 +198,9 @@ HWY_INLINE L::AlongRay LeavesInLanes::along(uint32_t half_space, size_t packet) 
     return L::small_sphere_along_ray(set(h.v.x), set(h.c), o, d);
   if (kKind == AlongKind::kDiagonal) return L::diagonal_along_ray(set(h.v), set(h.c), o, d);
   const auto& q = scene_.scene.half_spaces[half_space].f;
-  const L::Quadric f = {set(q.diag), set(q.off), set(q.b), set(q.c)};
+  const Vec3 b = is_cone(kKind) ? Vec3{} : q.b;
+  const L::Quadric f = {set(q.diag), set(q.off), set(b), set(is_cone(kKind) ? 0 : q.c)};
+  if (kKind == AlongKind::kCone) return L::cone_along_ray(f, o, d);
   return kKind == AlongKind::kQuadric ? L::quadric_along_ray(f, o, d)
                                       : L::small_quadric_along_ray(f, o, d);
 }
@@ -203,25 +219,24 @@ HWY_INLINE auto with_kind(AlongKind kind, const Visit& visit) {
       return visit(std::integral_constant<AlongKind, AlongKind::kDiagonal>());
     case AlongKind::kQuadric:
       return visit(std::integral_constant<AlongKind, AlongKind::kQuadric>());
-    default:
+    case AlongKind::kSmallQuadric:
       return visit(std::integral_constant<AlongKind, AlongKind::kSmallQuadric>());
+    case AlongKind::kCone:
+      return visit(std::integral_constant<AlongKind, AlongKind::kCone>());
+    default:
+      return visit(std::integral_constant<AlongKind, AlongKind::kSmallCone>());
   }
 }
 
 /// Where f changes its sign between t0 and t1. Neighbouring cells evaluate the same numbers at
 /// the t they share, so each change of sign is found in one of them, and in one only.
 template <AlongKind kKind>
-HWY_INLINE LaneSigns LeavesInLanes::signs_between(size_t packet, const L::AlongRay& f, Real t0,
-                                                  Real t1) const {
+HWY_INLINE LaneSigns LeavesInLanes::signs_between(uint32_t half_space, size_t packet,
+                                                  const L::AlongRay& f, Real t0, Real t1) const {
   End start = end_at<kKind>(f, t0), end = end_at<kKind>(f, t1);
   if (HWY_UNLIKELY(tile_.from_within)) {
-    const Real at_eye = tile_.at_eye(packet);
-    start = end_at_eye(at_eye, f, t0, start);
-    end = end_at_eye(at_eye, f, t1, end);
-    // A plane through the eye is not crossed again, and one that the ray runs in not at all: its
-    // side is that of the way's end.
-    const Bool in_plane = hn::And(f.a == set(0), is_at_eye(at_eye, t0, start));
-    start.inside = hn::Or(hn::And(in_plane, end.inside), hn::AndNot(in_plane, start.inside));
+    const Ends ends = ends_at_eye<kKind>(half_space, packet, f, t0, t1, {start, end});
+    start = ends.start, end = ends.end;
   }
   const uint32_t inside = bits(start.inside), changes = inside ^ bits(end.inside);
   if (kKind == AlongKind::kPlane) return {inside, changes, 0};
@@ -242,17 +257,51 @@ HWY_INLINE LeavesInLanes::End LeavesInLanes::end_at(L::AlongRay f, Real t) {
   return {value, value <= set(0), f.a * (t - f.about) + f.h < set(0)};
 }
 
+/// f is about a distance. But near the tip of a cone it has no slope, and what is ahead of the eye
+/// is as near as the tip.
+template <AlongKind kKind>
+HWY_INLINE LeavesInLanes::AtEye LeavesInLanes::at_eye(uint32_t half_space, size_t packet) const {
+  const Real least = set(kOnSurface * scene_.edge), most = set(kAhead * scene_.edge);
+  if (!is_cone(kKind)) return {tile_.at_eye(packet), least, most};
+  const Vec3 tip = scene_.half_spaces[half_space].center;
+  const L::Vec3 o = tile_.origin(packet), d = tile_.direction(packet);
+  const Real t = tile_.start(packet);
+  const L::Vec3 q = {o.x + d.x * t - set(tip.x), o.y + d.y * t - set(tip.y),
+                     o.z + d.z * t - set(tip.z)};
+  const auto& f = scene_.scene.half_spaces[half_space].f;
+  const Vec3 none;
+  const Real distance = L::sqrt(L::dot3(q, q));
+  const Real slope =
+      L::cone_most_slope({set(f.diag), set(f.off), set(none), set(0)}, distance + least);
+  const Real ahead = L::select(distance > least, hn::Min(set(kAhead) * distance, most), most);
+  return {tile_.at_eye(packet), least * hn::Min(slope, set(1)), ahead};
+}
+
+template <AlongKind kKind>
+HWY_NOINLINE LeavesInLanes::Ends LeavesInLanes::ends_at_eye(uint32_t half_space, size_t packet,
+                                                            L::AlongRay f, Real t0, Real t1,
+                                                            Ends ends) const {
+  const AtEye eye = at_eye<kKind>(half_space, packet);
+  ends = {end_at_eye(eye, f, t0, ends.start), end_at_eye(eye, f, t1, ends.end)};
+  // A plane through the eye is not crossed again, and one that the ray runs in not at all: its
+  // side is that of the way's end.
+  const Bool in_plane = hn::And(f.a == set(0), is_at_eye(eye, t0, ends.start));
+  ends.start.inside =
+      hn::Or(hn::And(in_plane, ends.end.inside), hn::AndNot(in_plane, ends.start.inside));
+  return ends;
+}
+
 /// Is this end at the eye, and the eye on the half-space's surface?
-HWY_INLINE Bool LeavesInLanes::is_at_eye(Real at_eye, Real t, const End& end) const {
-  return hn::And(hn::Le(t, at_eye), hn::Abs(end.value) <= set(kOnSurface * scene_.edge));
+HWY_INLINE Bool LeavesInLanes::is_at_eye(const AtEye& eye, Real t, const End& end) const {
+  return hn::And(hn::Le(t, eye.t), hn::Abs(end.value) <= eye.value);
 }
 
 /// Who stands on a surface has passed it: there the side is that of the way just ahead, and not
 /// rounding's. Elsewhere nothing changes.
-HWY_INLINE LeavesInLanes::End LeavesInLanes::end_at_eye(Real at_eye, L::AlongRay f, Real t,
+HWY_INLINE LeavesInLanes::End LeavesInLanes::end_at_eye(const AtEye& eye, L::AlongRay f, Real t,
                                                         End end) const {
-  const Bool on_surface = is_at_eye(at_eye, t, end);
-  const Bool falls = f.a * (t - f.about + set(kAhead * scene_.edge)) + f.h < set(0);
+  const Bool on_surface = is_at_eye(eye, t, end);
+  const Bool falls = f.a * (t - f.about + eye.ahead) + f.h < set(0);
   const auto choose = [&](Bool there, Bool else_there) {
     return hn::Or(hn::And(on_surface, there), hn::AndNot(on_surface, else_there));
   };
@@ -326,7 +375,7 @@ HWY_INLINE uint32_t LeavesInLanes::look_at(const LeafLiteral& literal, size_t nu
                t1 = hn::Load(D(), visitors.t1 + i * Tile::lanes());
     const L::AlongRay f = along<kKind>(literal.literal >> 1, packet);
     keep(number, i, f);
-    const LaneSigns s = signs_between<kKind>(packet, f, t0, t1);
+    const LaneSigns s = signs_between<kKind>(literal.literal >> 1, packet, f, t0, t1);
     signs_of[i] = s;
     scratch_.stats.literals += uint32_t(std::popcount(open_[i]));
     const uint32_t still = ~(s.changes() | s.bends());

@@ -229,7 +229,8 @@ HWY_INLINE void Tile::write_packet(const LaneScene& scene, size_t packet, const 
         g = {set(h.v.x) * q.x, set(h.v.x) * q.y, set(h.v.x) * q.z};
       } else {
         const auto& f = scene.scene.half_spaces[number].f;
-        g = L::quadric_half_gradient({set(f.diag), set(f.off), set(f.b), set(f.c)}, q);
+        const Vec3 b = is_cone(h.kind) ? Vec3{} : f.b;
+        g = L::quadric_half_gradient({set(f.diag), set(f.off), set(b), set(0)}, q);
       }
     }
     gradient = {L::select(same, g.x, gradient.x), L::select(same, g.y, gradient.y),

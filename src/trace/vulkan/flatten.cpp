@@ -195,7 +195,7 @@ std::vector<uint32_t> flatten_half_spaces(const Scene& scene, bool doubles) {
   for (const HalfSpace& h : scene.half_spaces) {
     const size_t first = to.size();
     const ShaderSurface kind = shader_surface(scene, h);
-    add_vector(to, h.center, doubles);
+    add_vector(to, h.has_tip() ? scene.tips[h.tip] : h.center, doubles);
     to.insert(to.end(), {uint32_t(kind), 0});
     if (kind == ShaderSurface::kPlane) {
       add_vector(to, h.f.b, doubles);
@@ -205,8 +205,10 @@ std::vector<uint32_t> flatten_half_spaces(const Scene& scene, bool doubles) {
     } else {
       add_vector(to, h.f.diag, doubles);
       add_vector(to, h.f.off, doubles);
-      add_vector(to, h.f.b, doubles);
-      add_number(to, h.f.c, doubles);
+      if (!h.has_tip()) {
+        add_vector(to, h.f.b, doubles);
+        add_number(to, h.f.c, doubles);
+      }
     }
     to.resize(first + kHalfSpaceWords);
   }

@@ -53,8 +53,9 @@ SurfaceCase surfaces_of(const Scene& scene, const Leaf& leaf) {
 ShaderSurface shader_surface(const Scene& scene, const HalfSpace& h) {
   if (h.is_plane()) return ShaderSurface::kPlane;
   // As f is scaled, 2 |c| is the radius, or the least one.
-  if (2 * std::fabs(h.f.c) < kSmall * max_component(scene.region.size()))
-    return ShaderSurface::kSmallQuadric;
+  const bool is_small = 2 * std::fabs(h.f.c) < kSmall * max_component(scene.region.size());
+  if (h.has_tip()) return is_small ? ShaderSurface::kSmallCone : ShaderSurface::kCone;
+  if (is_small) return ShaderSurface::kSmallQuadric;
   return h.kind == SurfaceKind::kSphere ? ShaderSurface::kSphere : ShaderSurface::kQuadric;
 }
 

@@ -9,7 +9,7 @@
 namespace whittle {
 
 /// How a half-space is solved; shaders/scene.glsl has the same numbers.
-enum class ShaderSurface : uint32_t { kPlane, kSphere, kQuadric, kSmallQuadric };
+enum class ShaderSurface : uint32_t { kPlane, kSphere, kQuadric, kSmallQuadric, kCone, kSmallCone };
 ShaderSurface shader_surface(const Scene& scene, const HalfSpace& half_space);
 
 /// What a shader knows of the leaf's formula; shaders/cases.glsl has the same numbers. One literal

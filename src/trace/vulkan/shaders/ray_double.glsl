@@ -58,22 +58,41 @@ bool is_entered() { return true; }
 // A half-space along the ray.
 struct OnRay {
   AlongRay f;
+  Real on_surface;  // the most that |f| is where an eye stands on the surface
+  Real ahead;       // so far ahead a ray looks from there where it goes
 };
+// f is about a distance.
+OnRay as_distance(AlongRay f) { return OnRay(f, view_on_surface(), view_ahead()); }
+// But near the tip of a cone it has no slope, and what is ahead of the eye is as near as the tip. o:
+// the ray's origin from there.
+OnRay from_tip(AlongRay along, Quadric f, Vec3 o) {
+  OnRay r = as_distance(along);
+  if (way_start > at_eye) return r;
+  const Real t = view_start() - ray.shift;
+  const Vec3 q = Vec3(o.x + ray.direction.x * t, o.y + ray.direction.y * t,
+                      o.z + ray.direction.z * t);
+  const Real distance = sqrt(dot3(q, q));
+  if (distance > view_on_surface()) r.ahead = pmin(view_ahead(), K(1e-9) * distance);
+  r.on_surface *= pmin(K(1), cone_most_slope(f, distance + view_on_surface()));
+  return r;
+}
 OnRay on_ray(uint half_space) {
   const Vec3 center = half_space_center(half_space);
   const Vec3 o = Vec3(ray.origin.x - center.x, ray.origin.y - center.y, ray.origin.z - center.z);
   const uint kind = kSurfaces == kPlanes ? kPlane : half_space_kind(half_space);
   if (kSurfaces == kPlanesAndSpheres && kind != kPlane) {
     const Quadric f = half_space_quadric(half_space, kSphere);
-    return OnRay(sphere_along_ray(f.diag.x, f.c, o, ray.direction));
+    return as_distance(sphere_along_ray(f.diag.x, f.c, o, ray.direction));
   }
   const Quadric f =
       half_space_quadric(half_space, kSurfaces == kAnySurfaces ? kind : kPlane);
   if (kind == kPlane || kSurfaces != kAnySurfaces)
-    return OnRay(plane_along_ray(f.b, o, ray.direction));
-  if (kind == kSphere) return OnRay(sphere_along_ray(f.diag.x, f.c, o, ray.direction));
-  if (kind == kSmallQuadric) return OnRay(small_quadric_along_ray(f, o, ray.direction));
-  return OnRay(quadric_along_ray(f, o, ray.direction));
+    return as_distance(plane_along_ray(f.b, o, ray.direction));
+  if (kind == kSphere) return as_distance(sphere_along_ray(f.diag.x, f.c, o, ray.direction));
+  if (kind == kCone) return from_tip(cone_along_ray(f, o, ray.direction), f, o);
+  if (kind == kSmallCone) return from_tip(small_quadric_along_ray(f, o, ray.direction), f, o);
+  if (kind == kSmallQuadric) return as_distance(small_quadric_along_ray(f, o, ray.direction));
+  return as_distance(quadric_along_ray(f, o, ray.direction));
 }
 
 struct Signs {
@@ -90,10 +109,10 @@ Signs signs_of(OnRay on_ray) {
   bool falls0 = f.a * (t0 - f.about) + f.h < K(0), falls1 = f.a * (t1 - f.about) + f.h < K(0);
   if (t0 <= at_eye) {
     // Who stands on a surface has passed it: there the side is that of the way just ahead.
-    const bool on0 = fabs_(value0) <= view_on_surface();
-    if (on0) inside0 = falls0 = f.a * (t0 - f.about + view_ahead()) + f.h < K(0);
-    if (t1 <= at_eye && fabs_(value1) <= view_on_surface())
-      inside1 = falls1 = f.a * (t1 - f.about + view_ahead()) + f.h < K(0);
+    const bool on0 = fabs_(value0) <= on_ray.on_surface;
+    if (on0) inside0 = falls0 = f.a * (t0 - f.about + on_ray.ahead) + f.h < K(0);
+    if (t1 <= at_eye && fabs_(value1) <= on_ray.on_surface)
+      inside1 = falls1 = f.a * (t1 - f.about + on_ray.ahead) + f.h < K(0);
     // A plane through the eye is not crossed again, and one that the ray runs in not at all.
     if (on0 && f.a == K(0)) inside0 = inside1;
   }

@@ -45,7 +45,8 @@ Vec3 half_space_center(uint i) {
   return place(a.xy, a.zw, half_space_words(i * 7 + 1).xy);
 }
 
-const uint kPlane = 0, kSphere = 1, kQuadric = 2, kSmallQuadric = 3;
+// A cone's centre is its tip, where its b and c are zero.
+const uint kPlane = 0, kSphere = 1, kQuadric = 2, kSmallQuadric = 3, kCone = 4, kSmallCone = 5;
 uint half_space_kind(uint i) { return half_space_words(i * 7 + 1).z; }
 
 // Of a plane or quadric. A plane's second degree is zero and not stored.
