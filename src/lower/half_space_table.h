@@ -22,6 +22,8 @@ struct Reach {
   double width = 0;       ///< see Extent
   double tolerance = 0;   ///< see own_tolerance()
   double ball_reach = 0;  ///< of the outline of a sphere's image from its middle; 0 for the rest
+
+  bool operator==(const Reach&) const = default;
 };
 
 /// Points that stand for a curved surface, some at a time: calls the test with them until it fails.
@@ -37,6 +39,11 @@ class HalfSpaceTable {
   /// it is curved and near an earlier one.
   Literal add(const HalfSpace& h, const Reach& reach, const Outline& outline);
 
+  /// Makes room for so many half-spaces, and no more.
+  void reserve(size_t count) {
+    half_spaces_.reserve(count);
+    tolerances_.reserve(count);
+  }
   std::vector<HalfSpace> take() { return std::move(half_spaces_); }
 
  private:

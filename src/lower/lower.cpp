@@ -263,6 +263,7 @@ Result<Scene> lower(const Model& model) {
     unit_of_node[instance.node] = number;
     scene.units.push_back(unit);
   }
+  lowered = {};
   Outlines outlines(model, scene);
   FaceMerger::Merged merged = merger.merge([&](uint32_t surface) { return outlines.of(surface); });
   scene.half_spaces = std::move(merged.half_spaces);

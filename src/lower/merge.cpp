@@ -27,27 +27,35 @@ Literal FaceMerger::add(const HalfSpace& face, const Reach& primitive, const Out
     fine.radius = 0.5 * region_.diagonal();
   }
   const Literal literal = table_.add(face, fine, outline);
-  const Extent extent = {primitive.center, primitive.radius, primitive.width};
+  if (reaches_.empty() || reaches_.back() != primitive) reaches_.push_back(primitive);
+  const auto reach = uint32_t(reaches_.size() - 1);
   if (literal >> 1 == written_.size()) {
-    written_.push_back({primitive, extent});
-  } else {
-    Written& known = written_[literal >> 1];
-    known.extent = united(known.extent, extent);
-    if (primitive.tolerance > known.reach.tolerance) known.reach = primitive;
+    written_.push_back({reach, kOne});
+    return literal;
   }
+  Written& known = written_[literal >> 1];
+  if (known.extent == kOne) {
+    known.extent = uint32_t(extents_.size());
+    extents_.push_back(extent_of(reaches_[known.reach]));
+  }
+  Extent& extent = extents_[known.extent];
+  extent = united(extent, extent_of(primitive));
+  if (primitive.tolerance > reaches_[known.reach].tolerance) known.reach = reach;
   return literal;
 }
 
 FaceMerger::Merged FaceMerger::merge(const Outlines& outlines) {
   Merged merged;
   HalfSpaceTable table = table_for(region_, tolerance_);
+  table.reserve(written_.size());
   merged.literals.reserve(written_.size());
   const std::vector<HalfSpace> half_spaces =
       std::exchange(table_, table_for(region_, tolerance_)).take();
   for (uint32_t i = 0; i < written_.size(); ++i) {
-    const auto& [primitive, extent] = written_[i];
-    Reach all = primitive;
-    all.tolerance = joint_tolerance(primitive.tolerance, extent.width, together_);
+    Reach all = reaches_[written_[i].reach];
+    const Extent extent =
+        written_[i].extent == kOne ? extent_of(all) : extents_[written_[i].extent];
+    all.tolerance = joint_tolerance(all.tolerance, extent.width, together_);
     if (half_spaces[i].is_plane()) {
       all.center = extent.center;
       all.radius = extent.radius;
