@@ -22,6 +22,8 @@ struct Reach {
   double width = 0;       ///< see Extent
   double tolerance = 0;   ///< see own_tolerance()
   double ball_reach = 0;  ///< of the outline of a sphere's image from its middle; 0 for the rest
+
+  bool operator==(const Reach&) const = default;
 };
 
 /// Points that stand for a curved surface, some at a time: calls the test with them until it fails.

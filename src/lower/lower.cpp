@@ -21,16 +21,56 @@ Box grown(const Box& box, double margin) {
   return {box.lo - all, box.hi + all};
 }
 
+/// Grows the boxes of a primitive's facets by a share of their diagonal and by a length, both
+/// local.
+void grow_face_boxes(const Unit& unit, double share, double more, Scene& scene) {
+  const Affine& object_from_local = scene.box_frames[unit.box_frame];
+  const Affine local_from_object = inverse(object_from_local);
+  const auto times = [](const Affine& map, Vec3 v) {
+    return Vec3{dot(abs(map.row[0]), v), dot(abs(map.row[1]), v), dot(abs(map.row[2]), v)};
+  };
+  const Vec3 each{length(object_from_local.row[0]), length(object_from_local.row[1]),
+                  length(object_from_local.row[2])};
+  for (uint32_t i = 0; i < unit.face_count; ++i) {
+    Box& box = scene.face_boxes[unit.first_box + i];
+    const Vec3 by = each * (share * length(times(local_from_object, box.size())) + more);
+    box = {box.lo - by, box.hi + by};
+  }
+}
+
 /// Merging may move a plane by the tolerance, and so a facet's corner by much more where it meets
-/// its neighbours at small angles. Boxes that are too large only cost time.
+/// its neighbours at small angles. So may the digits of a file, but for bodies that are made of
+/// numbers. Boxes that are too large only cost time.
+void grow_for_moved_planes(const Unit& unit, Scene& scene) {
+  grow_face_boxes(unit, 0.05, 10 * scene.tolerance, scene);
+}
+
 void add_face_boxes(const Shape& shape, const Affine& local_from_object, Unit& unit, Scene& scene) {
-  std::vector<Box> boxes = facet_boxes(shape, local_from_object);
+  const std::vector<Box> boxes = facet_boxes(shape, {});
   if (boxes.size() != unit.face_count) return;
   unit.first_box = uint32_t(scene.face_boxes.size());
-  for (Box& box : boxes) {
-    box = grown(box, 0.05 * box.diagonal() + 10 * scene.tolerance);
-  }
+  unit.box_frame = uint32_t(scene.box_frames.size());
+  scene.box_frames.push_back(inverse(local_from_object));
   scene.face_boxes.insert(scene.face_boxes.end(), boxes.begin(), boxes.end());
+  if (std::holds_alternative<Sphere>(shape) || std::holds_alternative<Cylinder>(shape))
+    grow_face_boxes(unit, 1e-4, 0, scene);
+  else
+    grow_for_moved_planes(unit, scene);
+}
+
+/// Once faces have their half-spaces, which are numbered in the order of the faces: one that does
+/// not bring the next new one lies on an earlier one.
+void grow_moved_face_boxes(Scene& scene) {
+  uint32_t next = 0;
+  for (const Unit& unit : scene.units) {
+    bool moved = false;
+    for (uint32_t k = 0; k < unit.face_count; ++k) {
+      const bool is_new = scene.faces[unit.first_face + k].literal == 2 * next;
+      next += is_new;
+      moved |= !is_new;
+    }
+    if (moved && unit.first_box != Unit::kNoBoxes) grow_for_moved_planes(unit, scene);
+  }
 }
 
 /// The outlines of curved surfaces, made again when they are asked for: that is seldom, and those
@@ -231,11 +271,13 @@ Result<Scene> lower(const Model& model) {
     unit_of_node[instance.node] = number;
     scene.units.push_back(unit);
   }
+  lowered = {};
   Outlines outlines(model, scene);
   FaceMerger::Merged merged = merger.merge([&](uint32_t surface) { return outlines.of(surface); });
   scene.half_spaces = std::move(merged.half_spaces);
   for (Face& face : scene.faces)
     face.literal = merged.literals[face.literal >> 1] ^ (face.literal & 1);
+  grow_moved_face_boxes(scene);
   if (!FormulaBuilder(model, scene, unit_of_node).build(scene.formula)) return too_large();
   return scene;
 }

@@ -10,14 +10,6 @@ FaceMerger::FaceMerger(const Box& region, double tolerance, double together)
       together_(together),
       table_(max_component(region.size()) / 2, tolerance_) {}
 
-FaceMerger::Written FaceMerger::written_by(const Reach& primitive) {
-  return {{primitive.center, primitive.radius, primitive.width},
-          primitive.tolerance,
-          float(primitive.radius),
-          float(primitive.width),
-          float(primitive.ball_reach)};
-}
-
 Literal FaceMerger::add(const HalfSpace& face, const Reach& primitive, const Outline& outline) {
   Reach equal = primitive;
   equal.tolerance = equal_tolerance(primitive.tolerance, together_);
@@ -27,15 +19,20 @@ Literal FaceMerger::add(const HalfSpace& face, const Reach& primitive, const Out
     equal.radius = 0.5 * region_.diagonal();
   }
   const Literal literal = table_.add(face, primitive, equal, outline);
-  const Written written = written_by(primitive);
+  if (reaches_.empty() || reaches_.back() != primitive) reaches_.push_back(primitive);
+  const auto reach = uint32_t(reaches_.size() - 1);
   if (literal >> 1 == written_.size()) {
-    written_.push_back(written);
-  } else {
-    Written& known = written_[literal >> 1];
-    const Extent extent = united(known.extent, written.extent);
-    if (written.tolerance > known.tolerance) known = written;
-    known.extent = extent;
+    written_.push_back({reach, kOne});
+    return literal;
   }
+  Written& known = written_[literal >> 1];
+  if (known.extent == kOne) {
+    known.extent = uint32_t(extents_.size());
+    extents_.push_back(extent_of(reaches_[known.reach]));
+  }
+  Extent& extent = extents_[known.extent];
+  extent = united(extent, extent_of(primitive));
+  if (primitive.tolerance > reaches_[known.reach].tolerance) known.reach = reach;
   return literal;
 }
 
@@ -52,11 +49,14 @@ FaceMerger::Merged FaceMerger::merge(const Outlines& outlines) {
     uint32_t number = count;
     Literal side = 0;
     if (table_.is_crowded(i)) {
-      const Written& w = written_[i];
-      const double tolerance = joint_tolerance(w.tolerance, w.extent.width, together_);
-      const bool plane = half_space.is_plane();
-      const Reach all = {w.extent.center, plane ? w.extent.radius : double(w.radius),
-                         double(w.width), tolerance, double(w.ball_reach)};
+      Reach all = reaches_[written_[i].reach];
+      const Extent extent =
+          written_[i].extent == kOne ? extent_of(all) : extents_[written_[i].extent];
+      all.tolerance = joint_tolerance(all.tolerance, extent.width, together_);
+      if (half_space.is_plane()) {
+        all.center = extent.center;
+        all.radius = extent.radius;
+      }
       const Literal literal = table.add(half_space, all, outlines(i));
       if (literal >> 1 == number_of.size()) number_of.push_back(count);
       number = number_of[literal >> 1];

@@ -37,16 +37,18 @@ class FaceMerger {
  private:
   /// Faces on one surface as it was written.
   struct Written {
-    Extent extent;     ///< of all their primitives
-    double tolerance;  ///< the largest
-    // Of the primitive that has it, as Reach.
-    float radius, width, ball_reach;
+    uint32_t reach;   ///< of the primitive with the largest tolerance
+    uint32_t extent;  ///< of all their primitives; kOne: there is but that one
   };
-  static Written written_by(const Reach& primitive);
+  static constexpr uint32_t kOne = UINT32_MAX;
+  static Extent extent_of(const Reach& reach) { return {reach.center, reach.radius, reach.width}; }
 
   Box region_;
   double tolerance_, together_;
   HalfSpaceTable table_;
+  // A primitive may have millions of faces.
+  std::vector<Reach> reaches_;
+  std::vector<Extent> extents_;
   std::vector<Written> written_;
 };
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/affine.h"
 #include "base/box.h"
 #include "kernels/kernels.h"
 #include "lower/formula.h"
@@ -48,6 +49,7 @@ struct Unit {
   Vec3 inner_center;  ///< a ball that the primitive holds; only where there are many faces
   double inner_radius = 0;
   uint32_t first_box = kNoBoxes;  ///< into Scene::face_boxes, one a face; only where there are many
+  uint32_t box_frame = 0;         ///< into Scene::box_frames, if it has boxes
 
   static constexpr uint32_t kNoBoxes = UINT32_MAX;
 };
@@ -61,7 +63,10 @@ struct Scene {
   std::vector<Vec3> tips;  ///< of cones; about its tip a cone's f has the second degree alone
   std::vector<Face> faces;
   std::vector<Unit> units;
-  std::vector<Box> face_boxes;  ///< where a facet is, grown by more than merging can have moved it
+  /// Where a facet is, in its primitive's own axes, along which long facets mostly lie. Grown by
+  /// more than rounding and merging can have moved it.
+  std::vector<Box> face_boxes;
+  std::vector<Affine> box_frames;  ///< own from local
   Formula formula;
 };
 

@@ -281,6 +281,20 @@ std::vector<Box> facet_boxes(const Shape& shape, const Affine& map) {
     }
     return boxes;
   }
+  if (const auto* c = std::get_if<Cylinder>(&shape)) {
+    // A cap for each ring, then the sides; of a tip there is one vertex and no cap.
+    const size_t n = size_t(c->facets), below = c->r1 > 0 ? n : 1, above = c->r2 > 0 ? n : 1;
+    const size_t caps = planes.size() - n;
+    for (size_t k = 0; k < n; ++k) {
+      if (below == n) add(0, k);
+      if (above == n) add(caps - 1, below + k);
+      for (const size_t corner : {k, (k + 1) % n}) {
+        add(caps + k, corner % below);
+        add(caps + k, below + corner % above);
+      }
+    }
+    return boxes;
+  }
   // A facet's corners are the vertices on its plane, to the precision of text.
   const double slack = 2e-5 * whole.diagonal();
   if (const auto* s = std::get_if<Polyhedron>(&shape); s && 4 * s->rise > slack)

@@ -240,9 +240,10 @@ TEST(Facets, BoxesHoldTheFacetsOfCoarsePolyhedra) {
 
 TEST(Facets, BoxesHoldTheFacets) {
   const Affine map{.row = {{1, 0.2, 0}, {0, 2, 0.3}, {0.1, 0, 0.5}}, .translation = {1, 2, 3}};
-  for (const Shape& shape : {Shape(Sphere{3, 5}), Shape(Sphere{3, 8}), Shape(Sphere{2, 31}),
-                             Shape(Cylinder{4, 2, 1, false, 7}), Shape(Cylinder{4, 2, 0, true, 12}),
-                             Shape(Cylinder{4, 2, 1, false, 2500}), Shape(Cube{})}) {
+  for (const Shape& shape :
+       {Shape(Sphere{3, 5}), Shape(Sphere{3, 8}), Shape(Sphere{2, 31}),
+        Shape(Cylinder{4, 2, 1, false, 7}), Shape(Cylinder{4, 2, 0, true, 12}),
+        Shape(Cylinder{4, 0, 2, true, 9}), Shape(Cylinder{4, 2, 1, false, 2500}), Shape(Cube{})}) {
     const std::vector<Plane> planes = facet_planes(shape);
     const std::vector<Vec3> vertices = facet_vertices(shape);
     const std::vector<Box> boxes = facet_boxes(shape, map);

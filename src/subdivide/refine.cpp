@@ -37,12 +37,6 @@ bool pays_off(uint32_t literals, double rays, uint32_t quick = kTableLiterals) {
          kSplitEach * literals;
 }
 
-/// What a cell takes if it is not split, at most: as a leaf, or open and rounded up to a power of
-/// two.
-size_t bytes_unsplit(size_t literals, size_t tokens) {
-  return 2 * sizeof(OpenCell) + 2 * sizeof(Token) * tokens + 32 * literals;
-}
-
 /// Of the memory that is left each part of a cell gets as much as it has of the literals, and as if
 /// it had so many more: where few surfaces meet for good, many cells are needed too.
 constexpr uint32_t kFew = 16;
@@ -137,6 +131,13 @@ CellLink Refiner::refine(const Cell& cell, const OpenCell& open, const Helpers* 
       return *eight;
   }
   return split(cell, open);
+}
+
+/// What a cell takes if it is not split, at most: open, rounded up to a power of two, and as a
+/// leaf. Its literals may be many and their half-spaces few.
+size_t Refiner::bytes_unsplit(size_t literals, size_t tokens) const {
+  return 2 * OpenCell::bytes(tokens) + sizeof(Leaf) + literals * (sizeof(Step) + sizeof(Token)) +
+         std::min(literals, scene_.half_spaces.size()) * sizeof(LeafLiteral);
 }
 
 /// Whether the cell is not split, and then what it is.

@@ -90,6 +90,7 @@ class Refiner {
   CellLink open_region();
   CellLink refine(const Cell& cell, const OpenCell& open, const Helpers* helpers);
   bool ends(const OpenCell& open, CellLink& link);
+  size_t bytes_unsplit(size_t literals, size_t tokens) const;
   bool keep_formula(const Cell& cell, CellLink open) const;
   size_t bytes_of_pair() const { return has_threshold_ ? sizeof(CellPair) : 2 * sizeof(Cell); }
   /// The two parts of a cell cut in the middle: boxes, truths, formulas.

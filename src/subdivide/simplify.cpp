@@ -67,7 +67,8 @@ Truth Simplifier::conjunction(FaceAt&& face_at, uint32_t count, bool negated, co
   }
   if (out.size() - first > kFewFacets) {
     const Unit& unit = scene_.units[scene_.faces[face_at(0)].unit];
-    if (unit.first_box != Unit::kNoBoxes) drop_far_facets(unit, cell, first, out);
+    if (unit.first_box != Unit::kNoBoxes && !drop_far_facets(unit, cell, first, out))
+      return truth(Side::kOutside, negated);
   }
   const size_t crossing = out.size() - first;
   if (tight_ && crossing > 1 && crossing <= kFewFacets && !settle_pairs(cell, first, out))
@@ -114,20 +115,30 @@ bool Simplifier::settle_pairs(const CellBox& cell, size_t first, Formula& out) c
 /// planes of many facets cross a cell; but if the body has a point in the cell, then its part there
 /// is bounded by the facets that reach the cell alone: a segment in the cell from that point to one
 /// outside of the body leaves the body through such a facet, and its plane excludes the rest.
-void Simplifier::drop_far_facets(const Unit& unit, const CellBox& cell, size_t first,
+///
+/// Where no facet reaches the cell, all of it is on one side. False if that is the outside; then
+/// `out` ends at `first`.
+bool Simplifier::drop_far_facets(const Unit& unit, const CellBox& cell, size_t first,
                                  Formula& out) const {
+  const Affine& own_from_local = scene_.box_frames[unit.box_frame];
+  const Vec3 center = own_from_local.point(cell.center);
+  Vec3 half;
+  for (int axis = 0; axis < 3; ++axis) half[axis] = dot(abs(own_from_local.row[axis]), cell.half);
+  const Vec3 lo = center - half, hi = center + half;
   const auto is_far = [&](Token token) {
     const Box& box = scene_.face_boxes[unit.first_box + token.payload() - unit.first_face];
-    for (int axis = 0; axis < 3; ++axis)
-      if (cell.center[axis] + cell.half[axis] < box.lo[axis] ||
-          cell.center[axis] - cell.half[axis] > box.hi[axis])
-        return true;
-    return false;
+    return hi.x < box.lo.x || hi.y < box.lo.y || hi.z < box.lo.z || lo.x > box.hi.x ||
+           lo.y > box.hi.y || lo.z > box.hi.z;
   };
   const auto begin = out.begin() + std::ptrdiff_t(first);
-  if (std::none_of(begin, out.end(), is_far)) return;
-  if (!meets(std::span<const Token>(out).subspan(first), cell)) return;
-  out.erase(std::remove_if(begin, out.end(), is_far), out.end());
+  if (std::none_of(begin, out.end(), is_far)) return true;
+  if (meets(std::span<const Token>(out).subspan(first), cell)) {
+    out.erase(std::remove_if(begin, out.end(), is_far), out.end());
+  } else if (std::all_of(begin, out.end(), is_far)) {
+    out.resize(first);
+    return false;
+  }
+  return true;
 }
 
 /// Whether the conjunction of these faces surely has a point in the cell: its middle or a corner.

@@ -223,6 +223,55 @@ TEST(Simplify, AGroupLeftWithOneOperandJoinsTheGroupAround) {
   EXPECT_EQ(leaf.write(arena).kind(), CellKind::kDisjunction);
 }
 
+TEST(Simplify, FacetsOfTurnedBodiesAreTheWholeBodyInTheCell) {
+  // Long facets aslant, tips, stretched facets; and planes that were moved onto earlier ones.
+  for (const char* const text : {
+           "rotate([20,30,0]) cylinder(r = 1, h = 5, $fn = 512);",
+           "rotate([70,10,5]) cylinder(r1 = 2, r2 = 0, h = 5, $fn = 200);",
+           "multmatrix([[5,1,0,3],[0,1,1,0],[0,0,0.2,1],[0,0,0,1]]) sphere(2, $fn = 60);",
+           "rotate([20,30,0]) { cylinder(r = 1, h = 5, $fn = 64);"
+           "  translate([1e-6,0,0]) cylinder(r = 1, h = 4.999999, $fn = 64); }",
+       }) {
+    Points points(12);
+    const Scene scene = lowered_text(text);
+    const UnitBoxes boxes(scene);
+    Simplifier simplifier(scene, boxes, 1e-10);
+    Formula out;
+    int decided = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Vec3 at = points.in(scene.region);
+      const double half = 0.002 * (1 << i % 8);
+      const Box cell{at - Vec3{half, half, half}, at + Vec3{half, half, half}};
+      const Truth truth = simplifier.simplify(scene.formula, cell, true, out);
+      decided += truth != Truth::kVaries;
+      for (int j = 0; j < 10; ++j) {
+        const Vec3 p = points.in(cell);
+        const bool simplified =
+            truth == Truth::kVaries ? contains(scene, out, p) : truth == Truth::kTrue;
+        ASSERT_EQ(simplified, contains(scene, scene.formula, p)) << text;
+      }
+    }
+    EXPECT_GT(decided, 2000) << text;
+  }
+}
+
+TEST(Simplify, LongFacetsAslantAreDroppedWhereTheyAreNot) {
+  const Scene scene = lowered_text("rotate([20,30,0]) cylinder(r = 1, h = 5, $fn = 2048);");
+  const UnitBoxes boxes(scene);
+  Simplifier simplifier(scene, boxes, 1e-10);
+  Points points(13);
+  Formula out;
+  size_t most = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 at = points.in(scene.region), half{0.01, 0.01, 0.01};
+    simplifier.simplify(scene.formula, {at - half, at + half}, true, out);
+    most = std::max(most, out.size());
+  }
+  // Twelve facets are as wide as the cell's diagonal; the planes of two hundred cross it.
+  EXPECT_GT(most, 5u);
+  EXPECT_LT(most, 40u);
+}
+
 TEST(Simplify, FacetsThatDoNotReachTheCellAreDropped) {
   // The planes of a finely facetted sphere all cross any cell at its surface of some size.
   Points points(8);

@@ -106,5 +106,31 @@ TEST_F(LimitsOfFiles, WhatNoSplitPartsEndsInLittleMemory) {
   expect_little_memory(done);
 }
 
+// A leaf of as many literals as the model has facets.
+TEST_F(LimitsOfFiles, ALeafOfVeryManyLiteralsIsSolvedInLittleMemory) {
+  std::string bundle;
+  for (int i = 0; i < 200; ++i) {
+    bundle += "rotate([" + std::to_string(i % 50) + "," + std::to_string(i / 50) +
+              ",0])cylinder(r=1,h=5,$fn=2048);";
+  }
+  write("bundle.csg", bundle);
+  const Ended done =
+      run({"bundle.csg", "-o", "x.png", "--imgsize", "4,4", "--aa", "1", "--memory", "1"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  expect_little_memory(done);
+}
+
+// So many literals of so few half-spaces that the memory for cells would not suffice if each took
+// what a half-space of its own does.
+TEST_F(LimitsOfFiles, NearlyAMillionLevelsOfOneBodyAreSplit) {
+  constexpr size_t kLevels = 900'000;
+  write("deep.csg",
+        repeated("difference(){cube(2);", kLevels) + "cube(1);" + repeated("}", kLevels));
+  const Ended done = run({"deep.csg", "-o", "x.png", "--imgsize", "16,16", "--stats"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.err.find("by half-spaces: 6: 8\n"), std::string::npos) << done.err;
+  expect_little_memory(done);
+}
+
 }  // namespace
 }  // namespace whittle

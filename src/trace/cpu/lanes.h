@@ -2,6 +2,7 @@
 // a vector holds doubles. The instruction set is chosen at run time; every one gives the same bits.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -56,6 +57,10 @@ inline constexpr size_t kMaxLanes = 8;
 inline constexpr size_t kTileRays = 256;  ///< rays that walk together, at most
 inline constexpr size_t kGroupRays = 64;  ///< of them, that are solved together, at most
 
+/// Of leaves with more literals than this, long ones, nothing is kept but signs: what is needed
+/// again is computed again.
+inline constexpr size_t kKeptLiterals = 16;
+
 /// f of one half-space along the rays of a group.
 struct alignas(64) GroupAlong {
   double a[kGroupRays], h[kGroupRays], k[kGroupRays], about[kGroupRays];
@@ -67,10 +72,11 @@ struct LaneScratch {
 
   RefinerLease refiner;
   LeafSolver solver;
-  // Per literal of the leaf at hand.
-  std::vector<LaneSigns> signs;  ///< one for each packet of a group
-  std::vector<GroupAlong> along;
-  std::vector<LiteralOnRay> on_ray;  ///< of one ray
+  // Of the leaf at hand. A long one may have millions of literals, so only signs are kept of it.
+  std::array<GroupAlong, kKeptLiterals> along;  ///< by literal
+  /// By literal, one for each packet of a group.
+  std::array<LaneSigns, kKeptLiterals * kGroupRays / kMaxLanes> signs;
+  std::vector<LaneSigns> long_signs;  ///< by literal, of one packet
   TraceStats stats;
 };
 

@@ -21,9 +21,7 @@ namespace {
 /// of the region's longest edge.
 constexpr double kAhead = 1e-9;
 
-/// Leaves of no more literals than this are solved for all lanes at once, but for jump programs.
-constexpr size_t kLaneLiterals = 16;
-static_assert(kLaneLiterals >= kTableLiterals);
+static_assert(kKeptLiterals >= kTableLiterals);
 
 /// Packets that are solved together; more only fill the nearest cache.
 constexpr size_t kGroup = kGroupRays / kMaxLanes;
@@ -50,9 +48,7 @@ struct Visitors {
 class LeavesInLanes {
  public:
   LeavesInLanes(const LaneScene& scene, Tile& tile, LaneScratch& scratch)
-      : scene_(scene), tile_(tile), scratch_(scratch) {
-    make_room(kTableLiterals);
-  }
+      : scene_(scene), tile_(tile), scratch_(scratch) {}
 
   Visitors visitors;
 
@@ -90,12 +86,13 @@ class LeavesInLanes {
 
   void forget_at_eye();
   void solve(CellKind kind, const Leaf& leaf);
-  template <AlongKind kKind>
+  void settle_long(const Leaf& leaf, uint32_t settles, uint32_t settling);
+  template <AlongKind kKind, bool kKeeps>
   uint32_t look_at(const LeafLiteral& literal, size_t number, uint32_t settles, uint32_t settling);
   void find_roots(size_t literals);
-  /// Conjunctions and disjunctions without a table. By itself, or what is done far more often would
-  /// be a twentieth slower.
-  HWY_NOINLINE void solve_long(CellKind kind, const Leaf& leaf) {
+  /// Conjunctions and disjunctions without a table, of which all is kept. By itself, or what is
+  /// done far more often would be a twentieth slower.
+  HWY_NOINLINE void solve_group(CellKind kind, const Leaf& leaf) {
     find_roots(leaf.literal_count);
     for (size_t w = 0; w < waiting_count_; ++w)
       open_[waiting_[w]] = solve_in_lanes<false>(kind, leaf, waiting_[w]);
@@ -104,17 +101,16 @@ class LeavesInLanes {
   uint32_t solve_in_lanes(CellKind kind, const Leaf& leaf, size_t visitor);
   uint32_t find_owners(const Leaf& leaf, size_t packet, uint32_t lanes, Word state,
                        uint32_t literal);
-  void solve_lane(CellKind kind, const Leaf& leaf, size_t visitor, uint32_t lane);
+  void solve_kept_lanes(CellKind kind, const Leaf& leaf, size_t visitor);
+  void solve_long_lanes(CellKind kind, const Leaf& leaf, size_t visitor);
+  template <class SignsOf, class AlongOf>
+  void solve_lane(CellKind kind, const Leaf& leaf, size_t visitor, uint32_t lane,
+                  const SignsOf& signs_of, const AlongOf& along_of);
   void becomes(size_t packet, uint32_t lanes, uint32_t solid) {
     tile_.known[packet] |= uint8_t(lanes);
     tile_.solid[packet] = uint8_t((tile_.solid[packet] & ~lanes) | (solid & lanes));
   }
 
-  void make_room(size_t literals) {
-    if (scratch_.along.size() >= literals) return;
-    scratch_.signs.resize(literals * kGroup);
-    scratch_.along.resize(literals);
-  }
   void keep(size_t literal, size_t visitor, const L::AlongRay& f) {
     GroupAlong& to = scratch_.along[literal];
     const size_t at = visitor * Tile::lanes();
@@ -145,8 +141,8 @@ class LeavesInLanes {
   uint32_t waiting_[kGroup];  ///< visitors that are open
   size_t waiting_count_ = 0;
   uint32_t first_root_[kGroup + 1];
-  alignas(64) double root_t_[2 * kLaneLiterals * kGroupRays];
-  Root roots_[2 * kLaneLiterals * kGroup];
+  alignas(64) double root_t_[2 * kKeptLiterals * kGroupRays];
+  Root roots_[2 * kKeptLiterals * kGroup];
 };
 
 inline void LeavesInLanes::pass(CellLink cell) {
@@ -168,7 +164,6 @@ inline void LeavesInLanes::pass(CellLink cell) {
       return;
     default: {
       const Leaf& leaf = cell.leaf();
-      make_room(leaf.literal_count);
       solve(cell.kind(), leaf);
       if (HWY_UNLIKELY(tile_.from_within)) forget_at_eye();
     }
@@ -310,8 +305,9 @@ HWY_INLINE LeavesInLanes::End LeavesInLanes::end_at_eye(const AtEye& eye, L::Alo
 
 inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
   const std::span<const LeafLiteral> literals = leaf.literals();
+  const bool is_long = literals.size() > kKeptLiterals;
   // In a large model none of them is near, and all are on their way at once.
-  for (const LeafLiteral& literal : literals)
+  for (const LeafLiteral& literal : literals.first(std::min(literals.size(), kKeptLiterals)))
     hwy::Prefetch(&scene_.half_spaces[literal.literal >> 1]);
   const bool conjunction = kind == CellKind::kConjunction,
              disjunction = kind == CellKind::kDisjunction;
@@ -324,12 +320,16 @@ inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
     opposite_[i] = tile_.known[packet] & (tile_.solid[packet] ^ ~settling);
     scratch_.stats.leaves += uint32_t(std::popcount(open_[i]));
   }
-  uint32_t any_open = ~0u;
-  for (size_t literal = 0; literal < literals.size() && any_open != 0; ++literal)
-    any_open =
-        with_kind(scene_.half_spaces[literals[literal].literal >> 1].kind, [&](auto along_kind) {
-          return look_at<along_kind.value>(literals[literal], literal, settles, settling);
-        });
+  if (HWY_UNLIKELY(is_long)) {
+    settle_long(leaf, settles, settling);
+  } else {
+    uint32_t any_open = ~0u;
+    for (size_t literal = 0; literal < literals.size() && any_open != 0; ++literal)
+      any_open =
+          with_kind(scene_.half_spaces[literals[literal].literal >> 1].kind, [&](auto along_kind) {
+            return look_at<along_kind.value, true>(literals[literal], literal, settles, settling);
+          });
+  }
   if (settles) {
     for (size_t i = 0; i < visitors.count; ++i) {
       const uint32_t packet = visitors.packet[i], settled = visitors.lanes[i] & ~open_[i];
@@ -346,27 +346,45 @@ inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
     waiting_count_ += open_[i] != 0;
   }
   if (waiting_count_ == 0) return;
-  if (scene_.solves_in_lanes) {
+  if (scene_.solves_in_lanes && !is_long) {
     if (literals.size() <= kTableLiterals) {
       find_roots(literals.size());
       for (size_t w = 0; w < waiting_count_; ++w)
         open_[waiting_[w]] = solve_in_lanes<true>(kind, leaf, waiting_[w]);
-    } else if (settles && literals.size() <= kLaneLiterals) {
-      solve_long(kind, leaf);
+    } else if (settles) {
+      solve_group(kind, leaf);
     }
   }
-  for (size_t w = 0; w < waiting_count_; ++w)
-    for (uint32_t left = open_[waiting_[w]]; left != 0; left &= left - 1)
-      solve_lane(kind, leaf, waiting_[w], uint32_t(std::countr_zero(left)));
+  for (size_t w = 0; w < waiting_count_; ++w) {
+    if (open_[waiting_[w]] == 0) continue;
+    if (is_long)
+      solve_long_lanes(kind, leaf, waiting_[w]);
+    else
+      solve_kept_lanes(kind, leaf, waiting_[w]);
+  }
 }
 
-/// The signs of one literal for all visitors. If `settles`, a lane along which the
+/// Which visitors some literal of a long conjunction or disjunction settles.
+HWY_NOINLINE inline void LeavesInLanes::settle_long(const Leaf& leaf, uint32_t settles,
+                                                    uint32_t settling) {
+  if (!settles) return;
+  uint32_t any_open = ~0u;
+  const std::span<const LeafLiteral> literals = leaf.literals();
+  for (size_t i = 0; i < literals.size() && any_open != 0; ++i) {
+    if (i + kKeptLiterals < literals.size())
+      hwy::Prefetch(&scene_.half_spaces[literals[i + kKeptLiterals].literal >> 1]);
+    any_open = with_kind(scene_.half_spaces[literals[i].literal >> 1].kind, [&](auto along_kind) {
+      return look_at<along_kind.value, false>(literals[i], i, settles, settling);
+    });
+  }
+}
+
+/// The signs of one literal for all visitors, kept or not. If `settles`, a lane along which the
 /// literal never changes and is not `settling` (all bits, or none) needs no more literals.
 /// Returns the lanes that still do, of any visitor.
-template <AlongKind kKind>
+template <AlongKind kKind, bool kKeeps>
 HWY_INLINE uint32_t LeavesInLanes::look_at(const LeafLiteral& literal, size_t number,
                                            uint32_t settles, uint32_t settling) {
-  LaneSigns* const signs_of = &signs(number, 0);
   const uint32_t turned = (literal.literal & 1 ? ~0u : 0) ^ settling;
   uint32_t any_open = 0;
   for (size_t i = 0; i < visitors.count; ++i) {
@@ -374,9 +392,11 @@ HWY_INLINE uint32_t LeavesInLanes::look_at(const LeafLiteral& literal, size_t nu
     const Real t0 = hn::Load(D(), visitors.t0 + i * Tile::lanes()),
                t1 = hn::Load(D(), visitors.t1 + i * Tile::lanes());
     const L::AlongRay f = along<kKind>(literal.literal >> 1, packet);
-    keep(number, i, f);
     const LaneSigns s = signs_between<kKind>(literal.literal >> 1, packet, f, t0, t1);
-    signs_of[i] = s;
+    if (kKeeps) {
+      keep(number, i, f);
+      signs(number, i) = s;
+    }
     scratch_.stats.literals += uint32_t(std::popcount(open_[i]));
     const uint32_t still = ~(s.changes() | s.bends());
     quiet_[i] &= still;
@@ -509,27 +529,87 @@ inline uint32_t LeavesInLanes::find_owners(const Leaf& leaf, size_t packet, uint
   return found;
 }
 
-inline void LeavesInLanes::solve_lane(CellKind kind, const Leaf& leaf, size_t visitor,
-                                      uint32_t lane) {
-  const size_t packet = visitors.packet[visitor];
-  scratch_.on_ray.resize(leaf.literal_count);
-  for (uint32_t i = 0; i < leaf.literal_count; ++i) {
-    const GroupAlong& f = scratch_.along[i];
+inline void LeavesInLanes::solve_kept_lanes(CellKind kind, const Leaf& leaf, size_t visitor) {
+  for (uint32_t left = open_[visitor]; left != 0; left &= left - 1) {
+    const auto lane = uint32_t(std::countr_zero(left));
     const size_t at = visitor * Tile::lanes() + lane;
-    const LaneSigns& s = signs(i, visitor);
-    scratch_.on_ray[i] = {{f.a[at], f.h[at], f.k[at], f.about[at]},
-                          bool(s.inside() >> lane & 1),
-                          bool(s.changes() >> lane & 1),
-                          bool(s.bends() >> lane & 1)};
+    solve_lane(
+        kind, leaf, visitor, lane, [&](uint32_t i) { return signs(i, visitor); },
+        [&](uint32_t i) {
+          const GroupAlong& f = scratch_.along[i];
+          return Kernels<double>::AlongRay{f.a[at], f.h[at], f.k[at], f.about[at]};
+        });
   }
+}
+
+HWY_NOINLINE inline void LeavesInLanes::solve_long_lanes(CellKind kind, const Leaf& leaf,
+                                                         size_t visitor) {
+  const std::span<const LeafLiteral> literals = leaf.literals();
+  const size_t packet = visitors.packet[visitor];
+  const Real t0 = hn::Load(D(), visitors.t0 + visitor * Tile::lanes()),
+             t1 = hn::Load(D(), visitors.t1 + visitor * Tile::lanes());
+  const auto with_kind_of = [&](size_t i, const auto& visit) {
+    const uint32_t half_space = literals[i].literal >> 1;
+    return with_kind(scene_.half_spaces[half_space].kind,
+                     [&](auto along_kind) { return visit(along_kind, half_space); });
+  };
+  scratch_.long_signs.resize(literals.size());
+  for (size_t i = 0; i < literals.size(); ++i)
+    scratch_.long_signs[i] = with_kind_of(i, [&](auto along_kind, uint32_t half_space) {
+      const L::AlongRay f = along<along_kind.value>(half_space, packet);
+      return signs_between<along_kind.value>(half_space, packet, f, t0, t1);
+    });
+  for (uint32_t left = open_[visitor]; left != 0; left &= left - 1) {
+    const auto lane = uint32_t(std::countr_zero(left));
+    solve_lane(
+        kind, leaf, visitor, lane, [&](uint32_t i) { return scratch_.long_signs[i]; },
+        [&](uint32_t i) {
+          const L::AlongRay f = with_kind_of(i, [&](auto along_kind, uint32_t half_space) {
+            return along<along_kind.value>(half_space, packet);
+          });
+          return Kernels<double>::AlongRay{hn::ExtractLane(f.a, lane), hn::ExtractLane(f.h, lane),
+                                           hn::ExtractLane(f.k, lane),
+                                           hn::ExtractLane(f.about, lane)};
+        });
+  }
+}
+
+/// One ray by itself. Of each literal are given its signs, and f along this ray where it is needed.
+template <class SignsOf, class AlongOf>
+inline void LeavesInLanes::solve_lane(CellKind kind, const Leaf& leaf, size_t visitor,
+                                      uint32_t lane, const SignsOf& signs_of,
+                                      const AlongOf& along_of) {
+  const size_t packet = visitors.packet[visitor], at = visitor * Tile::lanes() + lane;
+  const double t0 = visitors.t0[at];
+  LeafSolver& solver = scratch_.solver;
+  solver.take(kind, leaf, t0, visitors.t1[at], [&](uint32_t i) {
+    const LaneSigns s = signs_of(i);
+    LiteralOnRay on_ray{{},
+                        bool(s.inside() >> lane & 1),
+                        bool(s.changes() >> lane & 1),
+                        bool(s.bends() >> lane & 1)};
+    if (on_ray.changes || on_ray.bends) on_ray.along = along_of(i);
+    return on_ray;
+  });
   const uint32_t bit = 1u << lane;
   Inside inside = !(tile_.known[packet] & bit) ? Inside::kUnknown
                   : tile_.solid[packet] & bit  ? Inside::kYes
                                                : Inside::kNo;
+  const LocalRay ray = tile_.ray(packet, lane);
   Change change;
-  const size_t at = visitor * Tile::lanes() + lane;
-  if (scratch_.solver.first_change(kind, leaf, scratch_.on_ray, tile_.ray(packet, lane),
-                                   visitors.t0[at], visitors.t1[at], inside, change))
+  bool changes = true;
+  if (HWY_UNLIKELY(solver.differs(inside))) {
+    uint32_t nearest = 0;
+    double least = kInfinity;
+    for (uint32_t i = 0; i < leaf.literal_count; ++i) {
+      const double distance = std::fabs(Kernels<double>::along_value(along_of(i), t0));
+      if (i == 0 || distance < least) least = distance, nearest = i;
+    }
+    change = solver.change_at_start(ray, t0, nearest);
+  } else {
+    changes = solver.first_change(ray, inside, change);
+  }
+  if (changes)
     tile_.lane_met(packet, lane, change.t,
                    what_is_met(change.id, change.half_space, change.turned));
   else

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <utility>
 
 #include "lower/evaluate.h"
@@ -12,88 +13,115 @@ namespace {
 
 using K = Kernels<double>;
 
+/// So many crossings, and no more, are sorted by insertion.
+constexpr size_t kFewCrossings = 32;
+
 }  // namespace
 
 LeafSolver::LeafSolver(const Scene& scene)
     : scene_(scene),
       together_(together({scene.region.lo + scene.origin, scene.region.hi + scene.origin})) {}
 
-void LeafSolver::add_crossing(double t, uint32_t literal) {
-  // Insertion keeps the list sorted; it is short, and equal times stay in the literals' order.
-  size_t at = crossings_.size();
-  crossings_.push_back({t, literal});
-  for (; at > 0 && crossings_[at - 1].t > t; --at) crossings_[at] = crossings_[at - 1];
-  crossings_[at] = {t, literal};
+void LeafSolver::add_crossings(uint32_t number, const LiteralOnRay& literal, double t0, double t1) {
+  const auto add = [&](bool rising) {
+    // The signs say that it is in (t0, t1]; rounding may not.
+    crossings_.push_back(
+        {std::min(std::max(K::along_root(literal.along, rising), t0), t1), number});
+  };
+  // f rises where the ray leaves the half-space.
+  add(literal.inside);
+  if (literal.bends) add(!literal.inside);
 }
 
-void LeafSolver::list_crossings(std::span<const LiteralOnRay> on_ray, double t0, double t1) {
-  crossings_.clear();
-  is_inside_.resize(on_ray.size());
-  for (uint32_t i = 0; i < on_ray.size(); ++i) {
-    const LiteralOnRay& l = on_ray[i];
-    is_inside_[i] = l.inside;
-    const auto root = [&](bool rising) {
-      // The signs say that it is in (t0, t1]; rounding may not.
-      return std::min(std::max(K::along_root(l.along, rising), t0), t1);
-    };
-    // f rises where the ray leaves the half-space.
-    if (l.changes || l.bends) add_crossing(root(l.inside), i);
-    if (l.bends) add_crossing(root(!l.inside), i);
+/// By t, those of equal t in the literals' order.
+void LeafSolver::sort_crossings() {
+  if (crossings_.size() > kFewCrossings) {
+    std::ranges::sort(crossings_, [](const Crossing& a, const Crossing& b) {
+      const auto order = std::strong_order(a.t, b.t);
+      return order != 0 ? order < 0 : a.literal < b.literal;
+    });
+    return;
+  }
+  for (size_t i = 1; i < crossings_.size(); ++i) {
+    const Crossing crossing = crossings_[i];
+    size_t at = i;
+    for (; at > 0 && crossings_[at - 1].t > crossing.t; --at) crossings_[at] = crossings_[at - 1];
+    crossings_[at] = crossing;
   }
 }
 
-void LeafSolver::start(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals) {
+void LeafSolver::start() {
+  const std::span<const LeafLiteral> literals = leaf_->literals();
   state_ = 0;
   count_ = 0;
-  if (kind == CellKind::kTable)
-    for (uint32_t i = 0; i < leaf.literal_count; ++i) state_ |= uint64_t(is_inside_[i]) << i;
-  else if (kind != CellKind::kProgram)
-    for (uint32_t i = 0; i < leaf.literal_count; ++i)
+  if (kind_ == CellKind::kTable) {
+    for (uint32_t i = 0; i < literals.size(); ++i) state_ |= uint64_t(is_inside_[i]) << i;
+  } else if (kind_ == CellKind::kProgram) {
+    path_.clear();
+    known_ = 0;
+    on_path_.resize(literals.size());
+  } else {
+    for (uint32_t i = 0; i < literals.size(); ++i)
       count_ += literal_value(literals[i], is_inside_[i]);
+  }
+  solid_ = value();
 }
 
-void LeafSolver::flip(CellKind kind, std::span<const LeafLiteral> literals, uint32_t literal) {
+void LeafSolver::flip(uint32_t literal) {
   is_inside_[literal] ^= 1;
-  if (kind == CellKind::kTable)
+  if (kind_ == CellKind::kTable) {
     state_ ^= uint64_t(1) << literal;
-  else if (literal_value(literals[literal], is_inside_[literal]))
+  } else if (kind_ == CellKind::kProgram) {
+    const uint32_t at = on_path_[literal];
+    if (at < known_ && leaf_->steps()[path_[at]].literal >> 1 == literal) known_ = at;
+  } else if (literal_value(leaf_->literals()[literal], is_inside_[literal])) {
     ++count_;
-  else
+  } else {
     --count_;
+  }
 }
 
-bool LeafSolver::value(CellKind kind, const Leaf& leaf,
-                       std::span<const LeafLiteral> literals) const {
-  switch (kind) {
+bool LeafSolver::value() {
+  switch (kind_) {
     case CellKind::kConjunction:
-      return count_ == literals.size();
+      return count_ == leaf_->literal_count;
     case CellKind::kDisjunction:
       return count_ > 0;
     case CellKind::kTable:
-      return leaf.table >> state_ & 1;
-    default: {
-      const Step* steps = leaf.steps().data();
-      uint32_t at = 0;
-      while (at < kAnswerFalse) {
-        const Step& step = steps[at];
-        at = is_inside_[step.literal >> 1] != (step.literal & 1) ? step.on_true : step.on_false;
-      }
-      return at == kAnswerTrue;
-    }
+      return leaf_->table >> state_ & 1;
+    default:
+      return program_value();
   }
 }
 
-size_t LeafSolver::decisive(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals,
-                            std::span<const Crossing> group) {
+bool LeafSolver::program_value() {
+  if (known_ == path_.size() && !path_.empty()) return answer_;
+  const Step* const steps = leaf_->steps().data();
+  uint32_t at = path_.empty() ? 0 : path_[known_];
+  path_.resize(known_);
+  while (at < kAnswerFalse) {
+    const Step& step = steps[at];
+    const uint32_t literal = step.literal >> 1, first = on_path_[literal];
+    if (first >= path_.size() || steps[path_[first]].literal >> 1 != literal)
+      on_path_[literal] = uint32_t(path_.size());
+    path_.push_back(at);
+    at = is_inside_[literal] != (step.literal & 1) ? step.on_true : step.on_false;
+  }
+  known_ = path_.size();
+  answer_ = at == kAnswerTrue;
+  return answer_;
+}
+
+size_t LeafSolver::decisive(std::span<const Crossing> group) {
   if (group.size() == 1) return 0;
-  const bool after = value(kind, leaf, literals);
+  const bool after = value();
   const auto value_without = [&](auto&& left_out) {
     const auto flip_those = [&] {
       for (size_t i = 0; i < group.size(); ++i)
-        if (left_out(i)) flip(kind, literals, group[i].literal);
+        if (left_out(i)) flip(group[i].literal);
     };
     flip_those();
-    const bool result = value(kind, leaf, literals);
+    const bool result = value();
     flip_those();
     return result;
   };
@@ -104,52 +132,42 @@ size_t LeafSolver::decisive(CellKind kind, const Leaf& leaf, std::span<const Lea
   return 0;
 }
 
-bool LeafSolver::first_change(CellKind kind, const Leaf& leaf, std::span<const LiteralOnRay> on_ray,
-                              const LocalRay& ray, double t0, double t1, Inside& inside,
-                              Change& change) {
-  const std::span<const LeafLiteral> literals = leaf.literals();
-  list_crossings(on_ray, t0, t1);
-  start(kind, leaf, literals);
-  bool solid = value(kind, leaf, literals);
-  if (inside != Inside::kUnknown && solid != (inside == Inside::kYes)) {
-    // The literal whose surface is nearest brought us here.
-    uint32_t nearest = 0;
-    const auto distance = [&](uint32_t i) {
-      return std::fabs(K::along_value(on_ray[i].along, t0));
-    };
-    for (uint32_t i = 1; i < on_ray.size(); ++i)
-      if (distance(i) < distance(nearest)) nearest = i;
-    ++disagreements;
-    const Crossing here{t0, nearest};
-    change = describe(leaf, literals, ray, t0, {&here, 1}, solid);
-    return true;
-  }
+bool LeafSolver::differs(Inside inside) const {
+  return inside != Inside::kUnknown && solid_ != (inside == Inside::kYes);
+}
+
+Change LeafSolver::change_at_start(const LocalRay& ray, double t0, uint32_t nearest) {
+  ++disagreements;
+  const Crossing here{t0, nearest};
+  return describe(ray, t0, {&here, 1}, solid_);
+}
+
+bool LeafSolver::first_change(const LocalRay& ray, Inside& inside, Change& change) {
   for (size_t i = 0; i < crossings_.size();) {
     const size_t first = i;
     const double t = crossings_[i].t;
     // The first one in any case: where numbers overflow, t may be none.
-    do flip(kind, literals, crossings_[i].literal);
+    do flip(crossings_[i].literal);
     while (++i < crossings_.size() && crossings_[i].t <= t + together_);
-    const bool after = value(kind, leaf, literals);
-    if (after == solid) continue;
+    const bool after = value();
+    if (after == solid_) continue;
     const std::span<Crossing> group(&crossings_[first], i - first);
     std::ranges::sort(group, {}, &Crossing::literal);  // the order of the file
-    std::swap(group[0], group[decisive(kind, leaf, literals, group)]);
-    change = describe(leaf, literals, ray, t, group, after);
+    std::swap(group[0], group[decisive(group)]);
+    change = describe(ray, t, group, after);
     return true;
   }
-  inside = solid ? Inside::kYes : Inside::kNo;
+  inside = solid_ ? Inside::kYes : Inside::kNo;
   return false;
 }
 
-Change LeafSolver::describe(const Leaf& leaf, std::span<const LeafLiteral> literals,
-                            const LocalRay& ray, double t, std::span<const Crossing> group,
+Change LeafSolver::describe(const LocalRay& ray, double t, std::span<const Crossing> group,
                             bool solid_after) const {
-  const Vec3 point = ray.origin + ray.direction * t;
+  const std::span<const LeafLiteral> literals = leaf_->literals();
   uint32_t literal = group[0].literal;
   uint32_t id = literals[literal].owner;
-  if (id == kSharedOwner || (group.size() > 1 && leaf.token_count > 0)) {
-    const Face& face = owner(leaf, literals, point, group);
+  if (id == kSharedOwner || (group.size() > 1 && leaf_->token_count > 0)) {
+    const Face& face = owner(*leaf_, literals, ray.origin + ray.direction * t, group);
     id = scene_.units[face.unit].id;
     for (const Crossing& crossing : group)
       if (literals[crossing.literal].literal >> 1 == face.literal >> 1) literal = crossing.literal;

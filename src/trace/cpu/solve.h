@@ -58,12 +58,32 @@ class LeafSolver {
  public:
   explicit LeafSolver(const Scene& scene);
 
-  /// Finds the first t in (t0, t1] at which the solid in this leaf changes from what `inside` says,
-  /// or t0 if it differs there already. Otherwise false, and `inside` tells the value at t1.
-  /// Unknown becomes known at t0 and is no change. Crossings at equal t, or nearly so (together()),
-  /// happen together. `on_ray` has an entry for every literal of the leaf.
-  bool first_change(CellKind kind, const Leaf& leaf, std::span<const LiteralOnRay> on_ray,
-                    const LocalRay& ray, double t0, double t1, Inside& inside, Change& change);
+  /// Takes up a leaf, and the way of a ray through it: what each literal does on the way from t0 to
+  /// t1. `on_ray(i)` gives a LiteralOnRay; its polynomial is needed only where it crosses.
+  template <class OnRay>
+  void take(CellKind kind, const Leaf& leaf, double t0, double t1, const OnRay& on_ray) {
+    kind_ = kind;
+    leaf_ = &leaf;
+    crossings_.clear();
+    is_inside_.resize(leaf.literal_count);
+    for (uint32_t i = 0; i < leaf.literal_count; ++i) {
+      const LiteralOnRay literal = on_ray(i);
+      is_inside_[i] = literal.inside;
+      if (literal.changes || literal.bends) add_crossings(i, literal, t0, t1);
+    }
+    sort_crossings();
+    start();
+  }
+
+  /// Whether the leaf taken differs at t0 from what its neighbour said. Then the literal whose
+  /// surface is nearest brought the ray here: that is the change.
+  bool differs(Inside inside) const;
+  Change change_at_start(const LocalRay& ray, double t0, uint32_t nearest);
+
+  /// Finds the first t in (t0, t1] at which the solid in the leaf taken changes. Otherwise false,
+  /// and `inside` tells the value at t1. Crossings at equal t, or nearly so (together()), happen
+  /// together.
+  bool first_change(const LocalRay& ray, Inside& inside, Change& change);
 
   /// The owner (id) of a change by the crossing of one literal alone, in a leaf with a truth table;
   /// kSharedOwner if it depends on more than `state`, bit i of which says "inside literal i" after
@@ -78,19 +98,19 @@ class LeafSolver {
     double t;
     uint32_t literal;
   };
-  void list_crossings(std::span<const LiteralOnRay> on_ray, double t0, double t1);
-  void add_crossing(double t, uint32_t literal);
-  void start(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals);
-  void flip(CellKind kind, std::span<const LeafLiteral> literals, uint32_t literal);
-  bool value(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals) const;
+  void add_crossings(uint32_t number, const LiteralOnRay& literal, double t0, double t1);
+  void sort_crossings();
+  void start();
+  void flip(uint32_t literal);
+  bool value();
+  bool program_value();
   /// Of the crossings that just happened together and changed the solid, the number of the first
   /// that it would not have changed without, or that would have done alone: surfaces that are no
   /// part of the solid here may be among them. 0 if there is none such.
-  size_t decisive(CellKind kind, const Leaf& leaf, std::span<const LeafLiteral> literals,
-                  std::span<const Crossing> group);
+  size_t decisive(std::span<const Crossing> group);
   /// The first crossing of the group tells the owner, unless it has several.
-  Change describe(const Leaf& leaf, std::span<const LeafLiteral> literals, const LocalRay& ray,
-                  double t, std::span<const Crossing> group, bool solid_after) const;
+  Change describe(const LocalRay& ray, double t, std::span<const Crossing> group,
+                  bool solid_after) const;
   /// The face that owns a change which several primitives share (docs/conventions.md, tie rules).
   const Face& owner(const Leaf& leaf, std::span<const LeafLiteral> literals, Vec3 point,
                     std::span<const Crossing> group) const;
@@ -105,11 +125,20 @@ class LeafSolver {
 
   const Scene& scene_;
   std::array<KnownOwner, kKnownOwners> known_owners_;
-  const double together_;            ///< crossings closer than this happen together
+  const double together_;  ///< crossings closer than this happen together
+  CellKind kind_ = CellKind::kTable;
+  const Leaf* leaf_ = nullptr;
   std::vector<uint8_t> is_inside_;   ///< by literal: inside the half-space itself, at this point
   std::vector<Crossing> crossings_;  ///< in (t0, t1], sorted
+  bool solid_ = false;               ///< at t0
   uint64_t state_ = 0;               ///< kTable: the bits of is_inside_
   uint32_t count_ = 0;               ///< conjunction, disjunction: literals that are true
+  // kProgram: a value follows from the literals on the way to it, so that only from the first of
+  // them that flips on is the way looked for again.
+  std::vector<uint32_t> path_;     ///< the steps on the way
+  std::vector<uint32_t> on_path_;  ///< by literal: where it stands there first, if it does
+  size_t known_ = 0;               ///< steps that are right
+  bool answer_ = false;
 };
 
 }  // namespace whittle
