@@ -67,8 +67,7 @@ Truth Simplifier::conjunction(FaceAt&& face_at, uint32_t count, bool negated, co
   }
   if (out.size() - first > kFewFacets) {
     const Unit& unit = scene_.units[scene_.faces[face_at(0)].unit];
-    if (unit.first_box != Unit::kNoBoxes && !drop_far_facets(unit, cell, first, out))
-      return truth(Side::kOutside, negated);
+    if (unit.first_box != Unit::kNoBoxes) drop_far_facets(unit, cell, first, out);
   }
   const size_t crossing = out.size() - first;
   if (tight_ && crossing > 1 && crossing <= kFewFacets && !settle_pairs(cell, first, out))
@@ -115,10 +114,7 @@ bool Simplifier::settle_pairs(const CellBox& cell, size_t first, Formula& out) c
 /// planes of many facets cross a cell; but if the body has a point in the cell, then its part there
 /// is bounded by the facets that reach the cell alone: a segment in the cell from that point to one
 /// outside of the body leaves the body through such a facet, and its plane excludes the rest.
-///
-/// Where no facet reaches the cell, all of it is on one side. False if that is the outside; then
-/// `out` ends at `first`.
-bool Simplifier::drop_far_facets(const Unit& unit, const CellBox& cell, size_t first,
+void Simplifier::drop_far_facets(const Unit& unit, const CellBox& cell, size_t first,
                                  Formula& out) const {
   const Affine& own_from_local = scene_.box_frames[unit.box_frame];
   const Vec3 center = own_from_local.point(cell.center);
@@ -131,14 +127,9 @@ bool Simplifier::drop_far_facets(const Unit& unit, const CellBox& cell, size_t f
            lo.y > box.hi.y || lo.z > box.hi.z;
   };
   const auto begin = out.begin() + std::ptrdiff_t(first);
-  if (std::none_of(begin, out.end(), is_far)) return true;
-  if (meets(std::span<const Token>(out).subspan(first), cell)) {
-    out.erase(std::remove_if(begin, out.end(), is_far), out.end());
-  } else if (std::all_of(begin, out.end(), is_far)) {
-    out.resize(first);
-    return false;
-  }
-  return true;
+  if (std::none_of(begin, out.end(), is_far)) return;
+  if (!meets(std::span<const Token>(out).subspan(first), cell)) return;
+  out.erase(std::remove_if(begin, out.end(), is_far), out.end());
 }
 
 /// Whether the conjunction of these faces surely has a point in the cell: its middle or a corner.

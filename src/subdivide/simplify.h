@@ -52,7 +52,7 @@ class Simplifier {
   Truth conjunction(FaceAt&& face_at, uint32_t count, bool negated, const CellBox& cell,
                     Formula& out);
   bool settle_pairs(const CellBox& cell, size_t first, Formula& out) const;
-  bool drop_far_facets(const Unit& unit, const CellBox& cell, size_t first, Formula& out) const;
+  void drop_far_facets(const Unit& unit, const CellBox& cell, size_t first, Formula& out) const;
   bool meets(std::span<const Token> faces, const CellBox& cell) const;
   Kept close_group(const Open& group, Formula& out) const;
   bool joins_group_around(TokenKind kind, size_t depth) const;
