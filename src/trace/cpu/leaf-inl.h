@@ -10,16 +10,12 @@
 #include <cmath>
 #include <type_traits>
 
-#include "trace/cpu/tile-inl.h"
+#include "trace/cpu/half_spaces-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whittle {
 namespace HWY_NAMESPACE {
 namespace {
-
-/// This far ahead a ray from an eye on a surface looks where it goes (a tip has no slope); a share
-/// of the region's longest edge.
-constexpr double kAhead = 1e-9;
 
 static_assert(kKeptLiterals >= kTableLiterals);
 
@@ -48,7 +44,7 @@ struct Visitors {
 class LeavesInLanes {
  public:
   LeavesInLanes(const LaneScene& scene, Tile& tile, LaneScratch& scratch)
-      : scene_(scene), tile_(tile), scratch_(scratch) {}
+      : scene_(scene), tile_(tile), scratch_(scratch), half_spaces_(scene, tile) {}
 
   Visitors visitors;
 
@@ -56,34 +52,6 @@ class LeavesInLanes {
   void pass(CellLink cell);
 
  private:
-  /// A half-space at one end of the way through a cell.
-  struct End {
-    Real value;
-    Bool inside, falls;
-  };
-  template <AlongKind kKind>
-  L::AlongRay along(uint32_t half_space, size_t packet) const;
-  template <AlongKind kKind>
-  LaneSigns signs_between(uint32_t half_space, size_t packet, const L::AlongRay& f, Real t0,
-                          Real t1) const;
-  template <AlongKind kKind>
-  static End end_at(L::AlongRay f, Real t);
-  /// The eye's neighbourhood: in t, in f, and how far ahead a ray looks where it goes.
-  struct AtEye {
-    Real t, value, ahead;
-  };
-  template <AlongKind kKind>
-  AtEye at_eye(uint32_t half_space, size_t packet) const;
-  Bool is_at_eye(const AtEye& eye, Real t, const End& end) const;
-  struct Ends {
-    End start, end;
-  };
-  /// Not in the way of rays that come from outside.
-  template <AlongKind kKind>
-  HWY_NOINLINE Ends ends_at_eye(uint32_t half_space, size_t packet, L::AlongRay f, Real t0, Real t1,
-                                Ends ends) const;
-  End end_at_eye(const AtEye& eye, L::AlongRay f, Real t, End end) const;
-
   void forget_at_eye();
   void solve(CellKind kind, const Leaf& leaf);
   void settle_long(const Leaf& leaf, uint32_t settles, uint32_t settling);
@@ -130,6 +98,7 @@ class LeavesInLanes {
   const LaneScene& scene_;
   Tile& tile_;
   LaneScratch& scratch_;
+  const HalfSpacesInLanes half_spaces_;
 
   /// Crossings of all visitors, those of each one after the other.
   struct Root {
@@ -178,129 +147,6 @@ inline void LeavesInLanes::forget_at_eye() {
     const Real end = hn::Load(D(), visitors.t1 + i * Tile::lanes());
     tile_.known[packet] &= uint8_t(~(bits(hn::Le(end, tile_.at_eye(packet))) & visitors.lanes[i]));
   }
-}
-
-/// f of one half-space along all rays of a packet.
-template <AlongKind kKind>
-HWY_INLINE L::AlongRay LeavesInLanes::along(uint32_t half_space, size_t packet) const {
-  const LaneHalfSpace& h = scene_.half_spaces[half_space];
-  const L::Vec3 origin = tile_.origin(packet), d = tile_.direction(packet);
-  const L::Vec3 o = {origin.x - set(h.center.x), origin.y - set(h.center.y),
-                     origin.z - set(h.center.z)};
-  if (kKind == AlongKind::kPlane) return L::plane_along_ray(set(h.v), o, d);
-  if (kKind == AlongKind::kSphere) return L::sphere_along_ray(set(h.v.x), set(h.c), o, d);
-  if (kKind == AlongKind::kSmallSphere)
-    return L::small_sphere_along_ray(set(h.v.x), set(h.c), o, d);
-  if (kKind == AlongKind::kDiagonal) return L::diagonal_along_ray(set(h.v), set(h.c), o, d);
-  const auto& q = scene_.scene.half_spaces[half_space].f;
-  const Vec3 b = is_cone(kKind) ? Vec3{} : q.b;
-  const L::Quadric f = {set(q.diag), set(q.off), set(b), set(is_cone(kKind) ? 0 : q.c)};
-  if (kKind == AlongKind::kCone) return L::cone_along_ray(f, o, d);
-  return kKind == AlongKind::kQuadric ? L::quadric_along_ray(f, o, d)
-                                      : L::small_quadric_along_ray(f, o, d);
-}
-
-/// Calls `visit` with the kind of a half-space as a constant.
-template <class Visit>
-HWY_INLINE auto with_kind(AlongKind kind, const Visit& visit) {
-  switch (kind) {
-    case AlongKind::kPlane:
-      return visit(std::integral_constant<AlongKind, AlongKind::kPlane>());
-    case AlongKind::kSphere:
-      return visit(std::integral_constant<AlongKind, AlongKind::kSphere>());
-    case AlongKind::kSmallSphere:
-      return visit(std::integral_constant<AlongKind, AlongKind::kSmallSphere>());
-    case AlongKind::kDiagonal:
-      return visit(std::integral_constant<AlongKind, AlongKind::kDiagonal>());
-    case AlongKind::kQuadric:
-      return visit(std::integral_constant<AlongKind, AlongKind::kQuadric>());
-    case AlongKind::kSmallQuadric:
-      return visit(std::integral_constant<AlongKind, AlongKind::kSmallQuadric>());
-    case AlongKind::kCone:
-      return visit(std::integral_constant<AlongKind, AlongKind::kCone>());
-    default:
-      return visit(std::integral_constant<AlongKind, AlongKind::kSmallCone>());
-  }
-}
-
-/// Where f changes its sign between t0 and t1. Neighbouring cells evaluate the same numbers at
-/// the t they share, so each change of sign is found in one of them, and in one only.
-template <AlongKind kKind>
-HWY_INLINE LaneSigns LeavesInLanes::signs_between(uint32_t half_space, size_t packet,
-                                                  const L::AlongRay& f, Real t0, Real t1) const {
-  End start = end_at<kKind>(f, t0), end = end_at<kKind>(f, t1);
-  if (HWY_UNLIKELY(tile_.from_within)) {
-    const Ends ends = ends_at_eye<kKind>(half_space, packet, f, t0, t1, {start, end});
-    start = ends.start, end = ends.end;
-  }
-  const uint32_t inside = bits(start.inside), changes = inside ^ bits(end.inside);
-  if (kKind == AlongKind::kPlane) return {inside, changes, 0};
-  // In and out again, or out and in: only if f turns back between, and goes beyond zero there.
-  const Real bend = L::select(start.inside, set(0) - f.a, f.a);
-  const Bool turns = hn::Xor(start.falls, end.falls);
-  const Bool bends = hn::And(hn::And(bend > set(0), turns), f.h * f.h > f.a * f.k);
-  return {inside, changes, bits(bends) & ~changes};
-}
-
-template <AlongKind kKind>
-HWY_INLINE LeavesInLanes::End LeavesInLanes::end_at(L::AlongRay f, Real t) {
-  if (kKind == AlongKind::kPlane) {
-    const Real value = L::plane_value(f, t);
-    return {value, value <= set(0), f.h < set(0)};
-  }
-  const Real value = L::along_value(f, t);
-  return {value, value <= set(0), f.a * (t - f.about) + f.h < set(0)};
-}
-
-/// f is about a distance. But near the tip of a cone it has no slope, and what is ahead of the eye
-/// is as near as the tip.
-template <AlongKind kKind>
-HWY_INLINE LeavesInLanes::AtEye LeavesInLanes::at_eye(uint32_t half_space, size_t packet) const {
-  const Real least = set(kOnSurface * scene_.edge), most = set(kAhead * scene_.edge);
-  if (!is_cone(kKind)) return {tile_.at_eye(packet), least, most};
-  const Vec3 tip = scene_.half_spaces[half_space].center;
-  const L::Vec3 o = tile_.origin(packet), d = tile_.direction(packet);
-  const Real t = tile_.start(packet);
-  const L::Vec3 q = {o.x + d.x * t - set(tip.x), o.y + d.y * t - set(tip.y),
-                     o.z + d.z * t - set(tip.z)};
-  const auto& f = scene_.scene.half_spaces[half_space].f;
-  const Vec3 none;
-  const Real distance = L::sqrt(L::dot3(q, q));
-  const Real slope =
-      L::cone_most_slope({set(f.diag), set(f.off), set(none), set(0)}, distance + least);
-  const Real ahead = L::select(distance > least, hn::Min(set(kAhead) * distance, most), most);
-  return {tile_.at_eye(packet), least * hn::Min(slope, set(1)), ahead};
-}
-
-template <AlongKind kKind>
-HWY_NOINLINE LeavesInLanes::Ends LeavesInLanes::ends_at_eye(uint32_t half_space, size_t packet,
-                                                            L::AlongRay f, Real t0, Real t1,
-                                                            Ends ends) const {
-  const AtEye eye = at_eye<kKind>(half_space, packet);
-  ends = {end_at_eye(eye, f, t0, ends.start), end_at_eye(eye, f, t1, ends.end)};
-  // A plane through the eye is not crossed again, and one that the ray runs in not at all: its
-  // side is that of the way's end.
-  const Bool in_plane = hn::And(f.a == set(0), is_at_eye(eye, t0, ends.start));
-  ends.start.inside =
-      hn::Or(hn::And(in_plane, ends.end.inside), hn::AndNot(in_plane, ends.start.inside));
-  return ends;
-}
-
-/// Is this end at the eye, and the eye on the half-space's surface?
-HWY_INLINE Bool LeavesInLanes::is_at_eye(const AtEye& eye, Real t, const End& end) const {
-  return hn::And(hn::Le(t, eye.t), hn::Abs(end.value) <= eye.value);
-}
-
-/// Who stands on a surface has passed it: there the side is that of the way just ahead, and not
-/// rounding's. Elsewhere nothing changes.
-HWY_INLINE LeavesInLanes::End LeavesInLanes::end_at_eye(const AtEye& eye, L::AlongRay f, Real t,
-                                                        End end) const {
-  const Bool on_surface = is_at_eye(eye, t, end);
-  const Bool falls = f.a * (t - f.about + eye.ahead) + f.h < set(0);
-  const auto choose = [&](Bool there, Bool else_there) {
-    return hn::Or(hn::And(on_surface, there), hn::AndNot(on_surface, else_there));
-  };
-  return {end.value, choose(falls, end.inside), choose(falls, end.falls)};
 }
 
 inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
@@ -391,8 +237,8 @@ HWY_INLINE uint32_t LeavesInLanes::look_at(const LeafLiteral& literal, size_t nu
     const size_t packet = visitors.packet[i];
     const Real t0 = hn::Load(D(), visitors.t0 + i * Tile::lanes()),
                t1 = hn::Load(D(), visitors.t1 + i * Tile::lanes());
-    const L::AlongRay f = along<kKind>(literal.literal >> 1, packet);
-    const LaneSigns s = signs_between<kKind>(literal.literal >> 1, packet, f, t0, t1);
+    const L::AlongRay f = half_spaces_.along<kKind>(literal.literal >> 1, packet);
+    const LaneSigns s = half_spaces_.signs_between<kKind>(literal.literal >> 1, packet, f, t0, t1);
     if (kKeeps) {
       keep(number, i, f);
       signs(number, i) = s;
@@ -556,8 +402,8 @@ HWY_NOINLINE inline void LeavesInLanes::solve_long_lanes(CellKind kind, const Le
   scratch_.long_signs.resize(literals.size());
   for (size_t i = 0; i < literals.size(); ++i)
     scratch_.long_signs[i] = with_kind_of(i, [&](auto along_kind, uint32_t half_space) {
-      const L::AlongRay f = along<along_kind.value>(half_space, packet);
-      return signs_between<along_kind.value>(half_space, packet, f, t0, t1);
+      const L::AlongRay f = half_spaces_.along<along_kind.value>(half_space, packet);
+      return half_spaces_.signs_between<along_kind.value>(half_space, packet, f, t0, t1);
     });
   for (uint32_t left = open_[visitor]; left != 0; left &= left - 1) {
     const auto lane = uint32_t(std::countr_zero(left));
@@ -565,7 +411,7 @@ HWY_NOINLINE inline void LeavesInLanes::solve_long_lanes(CellKind kind, const Le
         kind, leaf, visitor, lane, [&](uint32_t i) { return scratch_.long_signs[i]; },
         [&](uint32_t i) {
           const L::AlongRay f = with_kind_of(i, [&](auto along_kind, uint32_t half_space) {
-            return along<along_kind.value>(half_space, packet);
+            return half_spaces_.along<along_kind.value>(half_space, packet);
           });
           return Kernels<double>::AlongRay{hn::ExtractLane(f.a, lane), hn::ExtractLane(f.h, lane),
                                            hn::ExtractLane(f.k, lane),
