@@ -51,7 +51,7 @@ struct LoadOptions {
   std::size_t most_depth = 1'000'000;    ///< statements inside statements
   std::size_t most_nodes = 20'000'000;   ///< statements
   std::size_t most_values = 10'000'000;  ///< numbers and other values in one statement
-  std::size_t most_facets = 2'000'000;   ///< flat faces, of all bodies together
+  std::size_t most_facets = 2'100'000;   ///< flat faces, of all bodies together
 };
 
 struct RenderOptions {

@@ -24,7 +24,7 @@ struct ReadLimits {
   size_t depth = 1'000'000;    ///< statements inside statements
   size_t nodes = 20'000'000;   ///< statements, those dropped by `*` not counted
   size_t values = 10'000'000;  ///< in one statement: numbers, strings, vectors, and names for them
-  size_t facets = 2'000'000;   ///< flat faces of all spheres, cylinders and polyhedra together
+  size_t facets = 2'100'000;   ///< flat faces of all spheres, cylinders and polyhedra together
 };
 
 struct ReadOptions {
