@@ -52,15 +52,17 @@ inline double own_tolerance(double model_tolerance, const Extent& extent, double
   return std::max(together, std::min(model_tolerance, 1e-3 * extent.width));
 }
 
-/// Surfaces that are no farther apart than this were written to be the same.
+/// Surfaces that are no farther apart than this were written to be the same. No decimal fraction,
+/// nor is the next one: people write round numbers, and what is exactly so far apart as rounding
+/// decides about should be nothing that they write.
 inline double equal_tolerance(double own_tolerance, double together) {
-  return std::max(together, 1e-3 * own_tolerance);
+  return std::max(together, own_tolerance / 1500);
 }
 
 /// Surfaces that were written to be the same are the same as another one together or not at all: by
-/// the largest of their tolerances, but never more than a tenth of the thinnest primitive's width.
+/// the largest of their tolerances, but never more than a 15th of the thinnest primitive's width.
 inline double joint_tolerance(double largest_tolerance, double thinnest, double together) {
-  return std::max(together, std::min(largest_tolerance, 0.1 * thinnest));
+  return std::max(together, std::min(largest_tolerance, thinnest / 15));
 }
 
 }  // namespace whittle

@@ -52,7 +52,7 @@ TEST(Extent, AToleranceIsNoMoreThanThePrimitiveBearsAndNoLessThanRoundingCanTell
 
 TEST(Extent, WhatMovesTogetherMovesByTheLargestToleranceThatTheThinnestBears) {
   EXPECT_EQ(joint_tolerance(1e-6, 1, 1e-9), 1e-6);
-  EXPECT_DOUBLE_EQ(joint_tolerance(1e-6, 1e-6, 1e-9), 1e-7);
+  EXPECT_DOUBLE_EQ(joint_tolerance(1e-6, 1.5e-6, 1e-9), 1e-7);
   EXPECT_EQ(joint_tolerance(1e-6, 1e-12, 1e-9), 1e-9);
 }
 

@@ -37,6 +37,25 @@ class Vulkan : public ProgramTest {
   Environment leaks_{"ASAN_OPTIONS", "detect_leaks=0"};
 };
 
+TEST_F(Vulkan, ADeviceThatIsNamedIsUsedOrRefused) {
+  for (const char* backend : {"cpu", "oracle"}) {
+    const Ended refused =
+        run({"part.csg", "-o", "x.png", "--backend", backend, "--device", "nosuch"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_EQ(refused.err, "whittle: --device names a device for --backend vulkan-raster\n");
+  }
+  // Named, it is asked for: then its backend is.
+  for (const char* command : {"", "cells", "bench"}) {
+    std::vector<std::string> arguments{"part.csg", "--device", "nosuch"};
+    if (*command != '\0') arguments.insert(arguments.begin(), command);
+    if (std::string(command) != "bench") arguments.insert(arguments.end(), {"-o", "x.png"});
+    const Ended none = run(arguments);
+    EXPECT_TRUE(none.exit_code == 2 || none.exit_code == 3) << none.exit_code;
+    EXPECT_NE(none.err.find("Vulkan"), std::string::npos) << none.err;
+  }
+  EXPECT_EQ(files(), std::vector<std::string>{"part.csg"});
+}
+
 #if WHITTLE_HAS_VULKAN
 
 TEST_F(Vulkan, ShowsWhatTheCpuShows) {

@@ -125,6 +125,19 @@ TEST_F(LargeFiles, WarningsAreSummedUp) {
   expect_little_memory(done);
 }
 
+// So many literals of so few half-spaces that the memory for cells would not suffice if each took
+// what a half-space of its own does.
+TEST_F(LargeFiles, NearlyAMillionLevelsOfOneBodyAreSplit) {
+  constexpr size_t kLevels = 900'000;
+  std::string deep;
+  for (size_t i = 0; i < kLevels; ++i) deep += "difference(){cube(2);";
+  write("deep.csg", deep + "cube(1);" + std::string(kLevels, '}'));
+  const Ended done = run({"deep.csg", "-o", "x.png", "--imgsize", "16,16", "--stats"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.err.find("by half-spaces: 6: 8\n"), std::string::npos) << done.err;
+  expect_little_memory(done);
+}
+
 TEST_F(LargeFiles, AnEndlessDeviceEnds) {
   expect_refused(run({"/dev/zero", "-o", "x.png"}), 1,
                  "/dev/zero:1:1: error: a NUL byte; this is not a text file");

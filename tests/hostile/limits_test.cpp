@@ -120,17 +120,5 @@ TEST_F(LimitsOfFiles, ALeafOfVeryManyLiteralsIsSolvedInLittleMemory) {
   expect_little_memory(done);
 }
 
-// So many literals of so few half-spaces that the memory for cells would not suffice if each took
-// what a half-space of its own does.
-TEST_F(LimitsOfFiles, NearlyAMillionLevelsOfOneBodyAreSplit) {
-  constexpr size_t kLevels = 900'000;
-  write("deep.csg",
-        repeated("difference(){cube(2);", kLevels) + "cube(1);" + repeated("}", kLevels));
-  const Ended done = run({"deep.csg", "-o", "x.png", "--imgsize", "16,16", "--stats"});
-  EXPECT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_NE(done.err.find("by half-spaces: 6: 8\n"), std::string::npos) << done.err;
-  expect_little_memory(done);
-}
-
 }  // namespace
 }  // namespace whittle
