@@ -1,4 +1,4 @@
-// Three-component vectors, the only vector maths whittle needs.
+// Vectors of space and of the plane.
 #pragma once
 
 #include <cmath>
@@ -72,6 +72,30 @@ constexpr T max_component(Vec3T<T> a) {
 /// True if no component is an infinity or NaN.
 inline bool is_finite(Vec3 a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
+/// A point or vector of the plane.
+struct Vec2 {
+  double x = 0, y = 0;
+
+  constexpr bool operator==(const Vec2&) const = default;
+  constexpr Vec2 operator-() const { return {-x, -y}; }
+  constexpr Vec2 operator+(Vec2 b) const { return {x + b.x, y + b.y}; }
+  constexpr Vec2 operator-(Vec2 b) const { return {x - b.x, y - b.y}; }
+  constexpr Vec2 operator*(double s) const { return {x * s, y * s}; }
+};
+constexpr double dot(Vec2 a, Vec2 b) {
+  return a.x * b.x + a.y * b.y;
+}
+/// Twice the area of the triangle 0, a, b; positive if it runs counter-clockwise.
+constexpr double cross(Vec2 a, Vec2 b) {
+  return a.x * b.y - a.y * b.x;
+}
+inline double length(Vec2 a) {
+  return std::hypot(a.x, a.y);
+}
+inline bool is_finite(Vec2 a) {
+  return std::isfinite(a.x) && std::isfinite(a.y);
 }
 
 }  // namespace whittle

@@ -62,6 +62,15 @@ struct ShapeWriter {
     }
   }
   void operator()(const Polyhedron&) const { write_facets(out, shape); }
+  void operator()(const Mesh& m) const {
+    fmt::format_to(out, "mesh {{\n");
+    for (const TriangleMesh::Triangle& t : m.surface->triangles) {
+      const auto corner = [&](int k) { return vec(m.surface->points[t.corners[size_t(k)]]); };
+      fmt::format_to(out, "  triangle {{ {}, {}, {} }}\n", corner(0), corner(1), corner(2));
+    }
+    // What makes a mesh of POV-Ray a solid; a direction that no model favours.
+    fmt::format_to(out, "  inside_vector <0.3, 0.5, 0.8>\n");
+  }
   void operator()(const Halfspace& h) const {
     const double scale = 1 / length(h.n);
     fmt::format_to(out, "plane {{ {}, {:.17g}\n", vec(h.n * scale), h.d * scale);

@@ -97,6 +97,7 @@ struct Planes {
   }
 
   std::vector<Plane> operator()(const Polyhedron& s) const { return s.planes; }
+  std::vector<Plane> operator()(const Mesh& s) const { return s.surface->facets; }
 
   std::vector<Plane> operator()(const Halfspace& s) const {
     // Divided by the largest component first, so that no square overflows or vanishes.
@@ -150,6 +151,7 @@ struct Vertices {
     return points;
   }
 
+  std::vector<Vec3> operator()(const Mesh& s) const { return s.surface->points; }
   std::vector<Vec3> operator()(const Halfspace&) const { return {}; }
 };
 

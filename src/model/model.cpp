@@ -24,6 +24,7 @@ struct IsEmpty {
     return !(is_size(s.h) && is_radius(s.r1) && is_radius(s.r2) && s.r1 + s.r2 > 0);
   }
   bool operator()(const Polyhedron& s) const { return s.planes.empty(); }
+  bool operator()(const Mesh& s) const { return !s.surface || s.surface->triangles.empty(); }
   bool operator()(const Halfspace& s) const {
     return !(is_finite(s.n) && std::isfinite(s.d)) || s.n == Vec3{};
   }

@@ -7,12 +7,14 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "base/affine.h"
+#include "model/triangle_mesh.h"
 
 namespace whittle {
 
@@ -21,12 +23,6 @@ struct SourceLocation {
   uint32_t line = 0;
   uint32_t column = 0;
   auto operator<=>(const SourceLocation&) const = default;
-};
-
-/// A plane n.p = d with unit normal; as a half-space it holds the points with n.p <= d.
-struct Plane {
-  Vec3 n;
-  double d = 0;
 };
 
 // The primitives, in their own coordinates. Sizes are model units. A size that is not positive and
@@ -63,11 +59,17 @@ struct Halfspace {
   double d = 0;
 };
 
-using Shape = std::variant<Cube, Sphere, Cylinder, Polyhedron, Halfspace>;
+/// Any solid with flat faces. Without a surface it is empty. Copies share the surface.
+struct Mesh {
+  std::shared_ptr<const TriangleMesh> surface;
+};
+
+using Shape = std::variant<Cube, Sphere, Cylinder, Polyhedron, Halfspace, Mesh>;
 
 struct Primitive {
   Shape shape;
-  uint32_t id = 0;  ///< number of the primitive statement in the file, from 1
+  uint32_t id = 0;  ///< of the body it is, or is a part of: the number of its statement in the
+                    ///< file, from 1
 };
 
 /// Red, green, blue, alpha in 0..1; a component of -1 is unset, as color() may leave it.
@@ -85,6 +87,9 @@ enum class NodeKind : uint8_t {
   kTransform,     ///< union of the children, mapped by transforms[payload]
   kColor,         ///< union of the children, painted colors[payload]
   kPrimitive,     ///< primitives[payload]
+  kBody,          ///< union of the children, which are the parts of one body: all have its id
+  kOperation,     ///< in a Document only: operations[payload] over the children
+  kLeaf,          ///< in a Document only: leaves[payload]
 };
 
 struct Node {

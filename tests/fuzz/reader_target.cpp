@@ -113,6 +113,15 @@ class Digest {
     }
     for (const Plane& plane : s.planes) vector(plane.n), number(plane.d);
   }
+  void operator()(const Mesh& s) {
+    if (!s.surface) return;
+    for (const Vec3 p : s.surface->points) vector(p);
+    for (const TriangleMesh::Triangle& t : s.surface->triangles) {
+      for (const uint32_t corner : t.corners) number(corner);
+      number(t.facet);
+    }
+    for (const Plane& plane : s.surface->facets) vector(plane.n), number(plane.d);
+  }
   std::string take() { return std::move(bytes_); }
 
  private:

@@ -1,0 +1,63 @@
+// Flat shapes as polygons, and what can be done with them: OpenSCAD's two-dimensional subsystem.
+//
+// Booleans, offsets and sums are Clipper's, on the grid that OpenSCAD rounds to.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace whittle {
+
+/// The last corner is joined to the first.
+using Contour = std::vector<Vec2>;
+
+/// A regularised region of the plane: outer contours run counter-clockwise, holes clockwise; they
+/// do not cross themselves or one another, though corners may touch.
+struct Polygons {
+  std::vector<Contour> contours;
+
+  bool is_empty() const { return contours.empty(); }
+};
+
+struct Rect {
+  Vec2 lo, hi;
+};
+
+/// Of polygons that are not empty.
+Rect bounds(const Polygons& polygons);
+
+/// The region that contours of any kind enclose an odd number of times.
+Polygons even_odd(std::span<const Contour> contours);
+
+Polygons unite(std::span<const Polygons> operands);
+Polygons intersect(std::span<const Polygons> operands);
+/// The first without all others.
+Polygons subtract(std::span<const Polygons> operands);
+
+/// How corners look that an offset moves away from.
+enum class Join { kRound, kMiter, kSquare };
+
+/// `delta` outwards, or inwards if it is negative. `fragments`: of a full circle of that radius,
+/// for kRound.
+Polygons offset(const Polygons& polygons, double delta, Join join, int fragments);
+
+/// Without holes.
+Polygons filled(const Polygons& polygons);
+
+/// The convex hull of all of them.
+Polygons convex_hull(std::span<const Polygons> operands);
+
+/// The Minkowski sum of all of them, one after the other.
+Polygons minkowski_sum(std::span<const Polygons> operands);
+
+/// OpenSCAD's polygon for a circle: n >= 3 corners, the first on +x.
+Contour circle(double r, int n);
+
+/// Each triangle three points, counter-clockwise, that are corners of the polygons. Every edge of
+/// a contour is an edge of exactly one triangle.
+std::vector<std::array<Vec2, 3>> triangulate(const Polygons& polygons);
+
+}  // namespace whittle
