@@ -50,7 +50,9 @@ struct Builder {
   void flat(const Shape& shape) {
     const std::vector<Plane> planes = facet_planes(shape);
     const std::vector<Vec3> vertices = facet_vertices(shape);
-    out.extent = flat_extent(vertices, planes, local_from_object);
+    const auto* const mesh = std::get_if<Mesh>(&shape);
+    out.extent = mesh ? mesh_extent(*mesh->surface, local_from_object)
+                      : flat_extent(vertices, planes, local_from_object);
     Vec3 middle;
     for (const Vec3& v : vertices) middle += v / double(vertices.size());
     out.half_spaces.reserve(planes.size());
