@@ -269,14 +269,22 @@ Result<Scene> lower(const Model& model) {
     }
     for (const HalfSpace& half_space : lowered.half_spaces)
       scene.faces.push_back({merger.add(half_space, reach, its_outline), number});
+    if (const auto* mesh = std::get_if<Mesh>(&primitive.shape); mesh && !instance.empty) {
+      const Affine local_from_mesh = local_from_world * instance.world_from_object;
+      const Affine mesh_from_local = inverse(local_from_mesh);
+      const Vec3 middle = mesh_from_local.point(lowered.extent.center);
+      for (const Plane& facet : mesh->surface->facets)
+        scene.faces.push_back(
+            {merger.add(facet_half_space(facet, middle, local_from_mesh, mesh_from_local), reach,
+                        its_outline),
+             number});
+      unit.boundary = uint32_t(scene.boundaries.size());
+      scene.boundaries.emplace_back(*mesh->surface, local_from_mesh, unit.first_face);
+    }
     unit.face_count = uint32_t(scene.faces.size()) - unit.first_face;
     if (unit.face_count > 0)
       unit.outer = grown(transform(local_from_world, instance_box(model, instance)), 10 * moved);
-    if (const auto* mesh = std::get_if<Mesh>(&primitive.shape); mesh && unit.face_count > 0) {
-      unit.boundary = uint32_t(scene.boundaries.size());
-      scene.boundaries.emplace_back(*mesh->surface, local_from_world * instance.world_from_object,
-                                    unit.first_face);
-    } else if (unit.face_count >= kManyFaces) {
+    if (unit.is_conjunction() && unit.face_count >= kManyFaces) {
       unit.inner_center = lowered.extent.center;
       unit.inner_radius = std::max(0.0, lowered.extent.width / 2 - moved);
       add_face_boxes(primitive.shape, local_from_world * instance.world_from_object, unit, scene);

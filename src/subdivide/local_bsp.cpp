@@ -155,10 +155,12 @@ void LocalBsp::divide(std::span<const uint32_t> polygons, uint32_t plane, Node& 
   front_.clear();
   back_.clear();
   double best = -1;
+  const double good_enough = 16 * slack_;
   for (const uint32_t number : polygons) {
     const Polygon polygon = polygons_[number];
     if (polygon.plane == plane) {
       for (const auto& weights : kWeights) {
+        if (best > good_enough) break;
         Vec3 sum;
         double all = 0;
         for (uint32_t k = 0; k < polygon.count; ++k) {
@@ -185,7 +187,6 @@ void LocalBsp::divide(std::span<const uint32_t> polygons, uint32_t plane, Node& 
           node.sample = p;
           node.jump = polygon.outward;
         }
-        if (polygons.size() > kMostCounted * 2) break;
       }
       continue;
     }

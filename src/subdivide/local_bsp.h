@@ -22,7 +22,7 @@ class LocalBsp {
   explicit LocalBsp(const Scene& scene) : scene_(scene) {}
 
   /// More half-spaces than this are not counted.
-  static constexpr uint32_t kMostCounted = 12;
+  static constexpr uint32_t kMostCounted = 8;
   static constexpr uint32_t kTooMany = UINT32_MAX;
 
   /// How many half-spaces the triangles in a cell lie on; kTooMany for more than kMostCounted. With

@@ -144,15 +144,6 @@ size_t Refiner::bytes_unsplit(size_t literals, size_t tokens) const {
          std::min(literals, scene_.half_spaces.size()) * sizeof(LeafLiteral);
 }
 
-/// Whether there is a boundary in the cell with so many triangles that making a formula of them
-/// takes more than any number of splits, which only look them up.
-bool Refiner::has_uncounted_boundary(const OpenCell& open) const {
-  if (scene_.boundaries.empty() || open.literals < kManyLiterals) return false;
-  return std::ranges::any_of(open.tokens(), [&](Token token) {
-    return token.kind() == TokenKind::kUnit && !scene_.units[token.payload()].is_conjunction();
-  });
-}
-
 /// Whether the cell is not split, and then what it is.
 bool Refiner::ends(const OpenCell& open, CellLink& link) {
   const double edge = max_component(open.box.size()) / region_edge_;
@@ -163,15 +154,17 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
   const bool useless = !has_threshold_ &&
                        (is_auto ? !pays_off(open.literals, rays)
                                 : edge * edge * open.literals < settings_.least_use) &&
-                       !has_uncounted_boundary(open);
+                       !open.is_crowded;
   const size_t split_bytes = 2 * (sizeof(Cell) + bytes_unsplit(open.literals, open.token_count));
   const bool must_end_anyway = useless || edge * 0.5 < settings_.smallest_edge ||
                                open.stalled >= stall_limit(open.literals) ||
                                open.depth >= kMostDepth || open.memory < split_bytes;
   const bool must_end = small || must_end_anyway;
   std::span<const Token> formula = open.tokens();
+  // To split a crowd of triangles takes much less than to make a formula of them.
   const bool is_long =
-      open.literals > kExpandAll && !must_end_anyway && !has_few_half_spaces(formula);
+      !must_end_anyway &&
+      (open.is_crowded || (open.literals > kExpandAll && !has_few_half_spaces(formula)));
   is_small_ = small;
   across_ = is_long ? Across::kUnknown : Across::kSame;
   if (is_long && !small) return false;
@@ -237,7 +230,9 @@ void Refiner::halve(const OpenCell& parent, int axis, Halves& halves) {
     halves.truth[side] = simplifier_.simplify(parent.tokens(), part.box, expand_of(parent.literals),
                                               halves.formula[side]);
     if (halves.truth[side] != Truth::kVaries) continue;
-    part.literals = simplifier_.literals(halves.formula[side]);
+    const Simplifier::Size size = simplifier_.size_of(halves.formula[side]);
+    part.literals = size.literals;
+    part.is_crowded = size.is_crowded;
     halves.cost += half_area(part.box) * part.literals;
   }
 }
@@ -256,8 +251,9 @@ CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
     unsplit[side] = bytes_unsplit(halves_.part[side].literals, halves_.formula[side].size());
     weight[side] = halves_.part[side].literals + kFew;
   }
-  const bool stalls = std::ranges::all_of(
-      halves_.part, [&](const OpenCell& part) { return part.literals >= parent.literals; });
+  const bool stalls = std::ranges::all_of(halves_.part, [&](const OpenCell& part) {
+    return part.literals >= parent.literals && !part.is_crowded;
+  });
   const size_t taken = 2 * sizeof(Cell) + unsplit[0] + unsplit[1];
   const double rest = parent.memory > taken ? double(parent.memory - taken) : 0;
   Cell* const cells = new_pair();
@@ -331,13 +327,15 @@ std::optional<CellLink> Refiner::open_parts(const Cell& cell, const OpenCell& pa
     Refiner& refiner = helpers == nullptr ? *this : helpers->refiner_of(worker);
     for (size_t part = first; part < last; ++part) {
       refiner.stats_.classified += formulas[part].size();
-      OpenCell child{grid.part(part), 0, parent.depth + splits, 0, 0, 0};
+      OpenCell child{grid.part(part), 0, parent.depth + splits, 0, 0, false, 0};
       Formula& formula = refiner.halves_.formula[0];
       const Truth truth = refiner.simplifier_.simplify(formulas[part], child.box,
                                                        expand_of(literals[part]), formula);
       links[part] = decided(truth == Truth::kTrue);
       if (truth != Truth::kVaries) continue;
-      child.literals = refiner.simplifier_.literals(formula);
+      const Simplifier::Size size = refiner.simplifier_.size_of(formula);
+      child.literals = size.literals;
+      child.is_crowded = size.is_crowded;
       links[part] = refiner.open(child, formula);
       opened[part] = static_cast<OpenCell*>(const_cast<void*>(links[part].target()));
     }
@@ -435,17 +433,17 @@ CellLink Refiner::open_region() {
   if (scene_.region.is_empty()) return decided(false);
   Formula simplified;
   std::span<const Token> formula = scene_.formula;
-  uint32_t literals = expanded_size(scene_, formula);
+  Simplifier::Size size{expanded_size(scene_, formula), !scene_.boundaries.empty()};
   // Of a wide one nearly all is in the region, and its parts will be looked at by all threads.
   if (!is_wide(formula, 0)) {
     stats_.classified += formula.size();
     const Truth truth =
-        simplifier_.simplify(formula, scene_.region, expand_of(literals), simplified);
+        simplifier_.simplify(formula, scene_.region, expand_of(size.literals), simplified);
     if (truth != Truth::kVaries) return decided(truth == Truth::kTrue);
     formula = simplified;
-    literals = simplifier_.literals(formula);
+    size = simplifier_.size_of(formula);
   }
-  return open({scene_.region, settings_.memory, 0, 0, literals, 0}, formula);
+  return open({scene_.region, settings_.memory, 0, 0, size.literals, size.is_crowded, 0}, formula);
 }
 
 /// Whether a formula, however long, has no more half-spaces than a truth table can hold: many

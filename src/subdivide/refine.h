@@ -27,7 +27,8 @@ struct OpenCell {
   size_t memory;  ///< its share: what it and all below it may take
   uint32_t depth;
   uint32_t stalled;   ///< splits since the formula last became shorter
-  uint32_t literals;  ///< of the formula, expanded (Simplifier::literals)
+  uint32_t literals;  ///< of the formula, expanded
+  bool is_crowded;    ///< boundaries are in it with many more triangles (Simplifier::Size)
   uint32_t token_count;
 
   std::span<const Token> tokens() const {
@@ -90,7 +91,6 @@ class Refiner {
   CellLink open_region();
   CellLink refine(const Cell& cell, const OpenCell& open, const Helpers* helpers);
   bool ends(const OpenCell& open, CellLink& link);
-  bool has_uncounted_boundary(const OpenCell& open) const;
   size_t bytes_unsplit(size_t literals, size_t tokens) const;
   bool keep_formula(const Cell& cell, CellLink open) const;
   size_t bytes_of_pair() const { return has_threshold_ ? sizeof(CellPair) : 2 * sizeof(Cell); }

@@ -61,7 +61,7 @@ Truth Simplifier::boundary(Token token, const CellBox& cell, Expand expand, Form
     const uint32_t half_spaces = bsp_.count(unit, cell);
     if (half_spaces == 0)
       return truth(bsp_.is_inside(unit, cell) ? Side::kInside : Side::kOutside, negated);
-    counted_.push_back({token.payload(), std::min(half_spaces, kManyLiterals)});
+    counted_.push_back({token.payload(), half_spaces});
     out.push_back(token);
     return Truth::kVaries;
   }
@@ -298,19 +298,22 @@ Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, Expan
   }
 }
 
-uint32_t Simplifier::literals(std::span<const Token> written) const {
-  uint32_t count = expanded_size(scene_, written);
-  if (counted_.empty()) return count;
+Simplifier::Size Simplifier::size_of(std::span<const Token> written) const {
+  Size size{expanded_size(scene_, written), false};
+  if (counted_.empty()) return size;
   // They stand in the order in which they were counted.
   auto next = counted_.begin();
   for (const Token token : written) {
     if (token.kind() != TokenKind::kUnit || scene_.units[token.payload()].is_conjunction())
       continue;
     while (next->unit != token.payload()) ++next;
-    count -= kManyLiterals - next->half_spaces;
+    if (next->half_spaces == LocalBsp::kTooMany)
+      size.is_crowded = true;
+    else
+      size.literals -= kManyLiterals - next->half_spaces;
     ++next;
   }
-  return count;
+  return size;
 }
 
 uint32_t expanded_size(const Scene& scene, std::span<const Token> formula) {

@@ -39,8 +39,13 @@ class Simplifier {
   Truth simplify(std::span<const Token> in, const Box& cell, Expand expand, Formula& out);
 
   /// Literals that the formula written last would have with all its primitives expanded in the cell
-  /// it was written for; kManyLiterals for a boundary of which there are too many to count.
-  uint32_t literals(std::span<const Token> written) const;
+  /// it was written for, and whether there are boundaries in it with too many to count; each of
+  /// these counts as kManyLiterals.
+  struct Size {
+    uint32_t literals = 0;
+    bool is_crowded = false;
+  };
+  Size size_of(std::span<const Token> written) const;
 
  private:
   /// What an operand that was kept amounts to for the group around it.
@@ -83,9 +88,9 @@ class Simplifier {
   std::vector<Counted> counted_;
 };
 
-/// What a boundary counts for that is not expanded, nor its half-spaces in a cell counted: more
-/// than any formula has that is expanded as a whole.
-inline constexpr uint32_t kManyLiterals = 100;
+/// What a boundary counts for whose half-spaces in a cell are not counted: as if they were one
+/// too many. It will be split until they are few.
+inline constexpr uint32_t kManyLiterals = LocalBsp::kMostCounted + 1;
 
 /// Literals that a formula would have with all its primitives expanded.
 uint32_t expanded_size(const Scene& scene, std::span<const Token> formula);

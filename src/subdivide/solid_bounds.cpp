@@ -83,7 +83,7 @@ class Search {
     uint64_t order;  ///< of those that reach equally far, the newest comes first: depth first
     Box box;
     Formula formula;
-    uint32_t literals = 0;  ///< of the formula, expanded
+    Simplifier::Size size;  ///< of the formula
     Formula faces;          ///< the formula, expanded
   };
   static bool comes_later(const Cell& a, const Cell& b) {
@@ -128,8 +128,8 @@ class Search {
     Formula formula;
     const Truth truth = simplify(around, box, formula);
     if (truth != Truth::kVaries) return;
-    const uint32_t literals = simplifier_.literals(formula);
-    open_.push_back({reach_of(box), order_++, box, std::move(formula), literals, {}});
+    const Simplifier::Size size = simplifier_.size_of(formula);
+    open_.push_back({reach_of(box), order_++, box, std::move(formula), size, {}});
     std::ranges::push_heap(open_, comes_later);
   }
 
@@ -143,10 +143,10 @@ class Search {
       const Truth truth = simplify(cell.formula, cell.box, formula);
       if (truth != Truth::kVaries) return;
       cell.formula = std::move(formula);
-      cell.literals = simplifier_.literals(cell.formula);
+      cell.size = simplifier_.size_of(cell.formula);
     }
     int split_axis = longest_axis(cell.box);
-    if (cell.literals <= kFewLiterals && make_faces_of(cell)) {
+    if (!cell.size.is_crowded && cell.size.literals <= kFewLiterals && make_faces_of(cell)) {
       if (cell.faces.empty()) return;
       const double reach = reach_of_terms(cell);
       if (reach <= best_ + accuracy_) return;
