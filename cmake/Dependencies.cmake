@@ -7,6 +7,9 @@ find_package(fmt REQUIRED)             # libfmt-dev: text
 find_package(nlohmann_json REQUIRED)   # nlohmann-json3-dev: machine-readable output
 find_package(PNG REQUIRED)             # libpng-dev: pictures
 find_package(OpenEXR REQUIRED)         # libopenexr-dev: facts as pictures
+find_package(PkgConfig REQUIRED)       # pkgconf: finds what ships no CMake package:
+# libpolyclipping-dev: Booleans and offsets of flat shapes, the ones that OpenSCAD uses
+pkg_check_modules(polyclipping REQUIRED IMPORTED_TARGET polyclipping)
 if(WHITTLE_VULKAN)
   # libvulkan-dev: headers; glslc: compiles the shaders; libvulkan-volk-dev: finds the loader when the
   # program runs.
