@@ -7,6 +7,10 @@ find_package(fmt REQUIRED)             # libfmt-dev: text
 find_package(nlohmann_json REQUIRED)   # nlohmann-json3-dev: machine-readable output
 find_package(PNG REQUIRED)             # libpng-dev: pictures
 find_package(OpenEXR REQUIRED)         # libopenexr-dev: facts as pictures
+# libqhull-dev: convex hulls. Its own CMake package wants Qhull's programs too. Linked whole, so that it
+# costs nothing when the program starts.
+find_path(QHULL_INCLUDE libqhull_r/libqhull_r.h REQUIRED)
+find_library(QHULL_LIBRARY libqhullstatic_r.a REQUIRED)
 if(WHITTLE_VULKAN)
   # libvulkan-dev: headers; glslc: compiles the shaders; libvulkan-volk-dev: finds the loader when the
   # program runs.

@@ -13,6 +13,7 @@ build_packages=(
   nlohmann-json3-dev  # machine-readable output
   libpng-dev          # pictures
   libopenexr-dev      # facts as pictures
+  libqhull-dev        # convex hulls
   libvulkan-dev       # the Vulkan backend: headers,
   libvulkan-volk-dev  # the way to its functions when the program runs,
   libvulkan1          # and what that finds there
