@@ -78,7 +78,7 @@ void simplify_formula(benchmark::State& state) {
   size_t i = 0;
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        simplifier.simplify(scene.formula, cells[i++ % cells.size()], true, out));
+        simplifier.simplify(scene.formula, cells[i++ % cells.size()], Expand::kUnits, out));
   state.SetItemsProcessed(int64_t(state.iterations()) * int64_t(scene.faces.size()));
 }
 BENCHMARK(simplify_formula)->Arg(10)->Arg(100)->Arg(1000)->Arg(10000);

@@ -53,6 +53,18 @@ uint32_t CutFaces::half_space_at(uint32_t unit_number, Vec3 p) const {
   return nearest;
 }
 
+/// Whether a point is inside of a boundary, or on a triangle of it that lies in this surface.
+bool CutFaces::has_or_touches(const Unit& unit, uint32_t surface, Vec3 p, double margin) const {
+  const Boundary& boundary = scene_.boundaries[unit.boundary];
+  const double reach = margin + boundary.slack();
+  bool touches = false;
+  boundary.visit_in(p, {reach, reach, reach}, [&](uint32_t i) {
+    touches = scene_.faces[boundary.triangles()[i].face].literal >> 1 == surface;
+    return !touches;
+  });
+  return touches || boundary.winding(p) != 0;
+}
+
 bool CutFaces::is_cut(uint32_t id, Vec3 point) const {
   using K = Kernels<double>;
   Vec3 p = point - scene_.origin;
@@ -66,10 +78,14 @@ bool CutFaces::is_cut(uint32_t id, Vec3 point) const {
   return !evaluate<uint8_t>(scene_.formula, 1, [&](Token token) -> uint8_t {
     bool inside = true;
     if (token.kind() == TokenKind::kUnit) {
-      const Box& outer = scene_.units[token.payload()].outer;
+      const Unit& unit = scene_.units[token.payload()];
+      const Box& outer = unit.outer;
       for (int axis = 0; axis < 3; ++axis)
         inside = inside && outer.lo[axis] - margin <= p[axis] && p[axis] <= outer.hi[axis] + margin;
     }
+    if (inside && token.kind() == TokenKind::kUnit &&
+        !scene_.units[token.payload()].is_conjunction())
+      return has_or_touches(scene_.units[token.payload()], surface, p, margin) != token.negated();
     if (inside) {
       for_faces(scene_, token, [&](uint32_t face) {
         const Literal literal = scene_.faces[face].literal;

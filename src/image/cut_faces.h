@@ -27,6 +27,7 @@ class CutFaces {
 
  private:
   static constexpr uint32_t kNoUnit = UINT32_MAX;
+  bool has_or_touches(const Unit& unit, uint32_t surface, Vec3 p, double margin) const;
   uint32_t half_space_at(uint32_t unit, Vec3 p) const;
 
   const Scene& scene_;

@@ -67,6 +67,8 @@ inline bool contains(const Scene& scene, std::span<const Token> formula, Vec3 p)
       inside = contains(scene, scene.faces[token.payload()].literal, p);
     } else {
       const Unit& unit = scene.units[token.payload()];
+      if (!unit.is_conjunction())
+        return (scene.boundaries[unit.boundary].winding(p) != 0) != token.negated();
       for (uint32_t f = unit.first_face; inside && f < unit.first_face + unit.face_count; ++f)
         inside = contains(scene, scene.faces[f].literal, p);
     }

@@ -14,6 +14,11 @@ constexpr uint32_t kNone = UINT32_MAX;
 /// Unit cells of the indices in fingerprint units, and in those of normals.
 constexpr double kCellsPerUnit = 64;
 
+/// Of normals there may be millions, all told apart by much less than such a cell: then they are in
+/// finer cells as well, for those who ask for very near ones.
+constexpr double kFineCellsPerUnit = 1 << 16;
+constexpr size_t kManyGroups = 4096;
+
 /// Normals of a group differ by no more than this in any coordinate: far above rounding, and so
 /// little that across the region it is a small part of the tolerance.
 constexpr double kSameNormal = 1e-9;
@@ -127,17 +132,12 @@ void HalfSpaceTable::visit_planes(PointIndex Shelves::*shelf, const HalfSpace& h
   const Vec3 m = h.f.b * 2.0, n = complement ? -m : m;
   // Equal planes part by no more than the tolerance over the primitive.
   const double parting = std::min(1.0, reach.tolerance / reach.radius) + 2 * kSameNormal;
-  PointIndex::Point low, high;
-  for (size_t i = 0; i < 3; ++i) {
-    low[i] = (n[int(i)] - parting) * kCellsPerUnit;
-    high[i] = (n[int(i)] + parting) * kCellsPerUnit;
-  }
   const Vec3 foot = reach.center - m * dot(m, reach.center - h.center);
   // The foot's distance from an equal plane, and what the group's normal adds to it.
   const double slack =
       (1.01 * reach.tolerance + 8 * kSameNormal * (length(foot) + reach.tolerance)) / step_;
   bool goes_on = true;
-  groups_.visit(low, high, [&](uint32_t group) {
+  visit_groups(n, parting, [&](uint32_t group) {
     const double offset = dot(normals_[group], foot) / step_, of_group = double(group);
     (planes_.*shelf)
         .visit({offset - slack, of_group, 0}, {offset + slack, of_group, 0}, [&](uint32_t number) {
@@ -162,22 +162,35 @@ void HalfSpaceTable::visit_near(PointIndex Shelves::*shelf, const HalfSpace& h, 
   (shelves.*shelf).visit(low, high, [&](uint32_t number) { return visit(Literal(number) * 2); });
 }
 
-uint32_t HalfSpaceTable::group_of(Vec3 n) {
-  PointIndex::Point at, low, high;
+template <class Visit>
+void HalfSpaceTable::visit_groups(Vec3 n, double parting, const Visit& visit) const {
+  const bool fine = normals_.size() > kManyGroups && parting * kFineCellsPerUnit < 0.5;
+  const double scale = fine ? kFineCellsPerUnit : kCellsPerUnit;
+  PointIndex::Point low, high;
   for (size_t i = 0; i < 3; ++i) {
-    at[i] = n[int(i)] * kCellsPerUnit;
-    low[i] = at[i] - kSameNormal * kCellsPerUnit, high[i] = at[i] + kSameNormal * kCellsPerUnit;
+    low[i] = (n[int(i)] - parting) * scale;
+    high[i] = (n[int(i)] + parting) * scale;
   }
+  (fine ? fine_groups_ : groups_).visit(low, high, visit);
+}
+
+uint32_t HalfSpaceTable::group_of(Vec3 n) {
   uint32_t group = kNone;
-  groups_.visit(low, high, [&](uint32_t found) {
+  visit_groups(n, kSameNormal, [&](uint32_t found) {
     group = std::min(group, found);
     return true;
   });
-  if (group == kNone) {
-    group = uint32_t(normals_.size());
-    normals_.push_back(n);
-    groups_.add(at, group);
-  }
+  if (group != kNone) return group;
+  const auto scaled = [](Vec3 v, double scale) {
+    return PointIndex::Point{v.x * scale, v.y * scale, v.z * scale};
+  };
+  group = uint32_t(normals_.size());
+  normals_.push_back(n);
+  groups_.add(scaled(n, kCellsPerUnit), group);
+  if (normals_.size() <= kManyGroups) return group;
+  const uint32_t first = normals_.size() == kManyGroups + 1 ? 0 : group;
+  for (uint32_t i = first; i <= group; ++i)
+    fine_groups_.add(scaled(normals_[i], kFineCellsPerUnit), i);
   return group;
 }
 

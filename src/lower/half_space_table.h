@@ -79,6 +79,10 @@ class HalfSpaceTable {
                     bool complement, const Visit& visit) const;
   void put(const HalfSpace& h, uint32_t number, bool is_ball, const Fingerprint& at);
   uint32_t group_of(Vec3 normal);
+  /// Calls visit(group) for all whose normal is within `parting` of n in every coordinate, until it
+  /// returns false.
+  template <class Visit>
+  void visit_groups(Vec3 n, double parting, const Visit& visit) const;
 
   double radius_;
   double step_;  ///< of planes' offsets in their index
@@ -92,7 +96,7 @@ class HalfSpaceTable {
   /// Planes in groups that have one normal but for rounding, and by group and distance from the
   /// origin.
   std::vector<Vec3> normals_;
-  PointIndex groups_;
+  PointIndex groups_, fine_groups_;  ///< in coarse cells; in fine ones too, if there are many
   Shelves planes_;
 };
 

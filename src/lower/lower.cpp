@@ -1,6 +1,7 @@
 #include "lower/lower.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "lower/merge.h"
@@ -71,6 +72,15 @@ void grow_moved_face_boxes(Scene& scene) {
     }
     if (moved && unit.first_box != Unit::kNoBoxes) grow_for_moved_planes(unit, scene);
   }
+}
+
+/// Once faces have their half-spaces: how far the corners of boundaries are from them.
+void measure_slacks(Scene& scene, double least_tolerance) {
+  for (Boundary& boundary : scene.boundaries)
+    boundary.measure_slack(least_tolerance, [&](uint32_t face, Vec3 p) {
+      const HalfSpace& h = scene.half_spaces[scene.faces[face].literal >> 1];
+      return std::fabs(Kernels<double>::quadric_value(h.f, p - h.center));
+    });
 }
 
 /// The outlines of curved surfaces, made again when they are asked for: that is seldom, and those
@@ -197,7 +207,7 @@ class FormulaBuilder {
     const uint32_t faces = scene_.units[u].face_count;
     if (faces == 0)  // empty: false, or true under a negation
       out.push_back(Token::make(negated ? TokenKind::kAnd : TokenKind::kOr, 1));
-    else if (faces == 1)
+    else if (faces == 1 && scene_.units[u].is_conjunction())
       out.push_back(Token::make(TokenKind::kFace, scene_.units[u].first_face, negated));
     else
       out.push_back(Token::make(TokenKind::kUnit, u, negated));
@@ -259,10 +269,22 @@ Result<Scene> lower(const Model& model) {
     }
     for (const HalfSpace& half_space : lowered.half_spaces)
       scene.faces.push_back({merger.add(half_space, reach, its_outline), number});
+    if (const auto* mesh = std::get_if<Mesh>(&primitive.shape); mesh && !instance.empty) {
+      const Affine local_from_mesh = local_from_world * instance.world_from_object;
+      const Affine mesh_from_local = inverse(local_from_mesh);
+      const Vec3 middle = mesh_from_local.point(lowered.extent.center);
+      for (const Plane& facet : mesh->surface->facets)
+        scene.faces.push_back(
+            {merger.add(facet_half_space(facet, middle, local_from_mesh, mesh_from_local), reach,
+                        its_outline),
+             number});
+      unit.boundary = uint32_t(scene.boundaries.size());
+      scene.boundaries.emplace_back(*mesh->surface, local_from_mesh, unit.first_face);
+    }
     unit.face_count = uint32_t(scene.faces.size()) - unit.first_face;
     if (unit.face_count > 0)
       unit.outer = grown(transform(local_from_world, instance_box(model, instance)), 10 * moved);
-    if (unit.face_count >= kManyFaces) {
+    if (unit.is_conjunction() && unit.face_count >= kManyFaces) {
       unit.inner_center = lowered.extent.center;
       unit.inner_radius = std::max(0.0, lowered.extent.width / 2 - moved);
       add_face_boxes(primitive.shape, local_from_world * instance.world_from_object, unit, scene);
@@ -278,6 +300,7 @@ Result<Scene> lower(const Model& model) {
   for (Face& face : scene.faces)
     face.literal = merged.literals[face.literal >> 1] ^ (face.literal & 1);
   grow_moved_face_boxes(scene);
+  measure_slacks(scene, least_tolerance);
   if (!FormulaBuilder(model, scene, unit_of_node).build(scene.formula)) return too_large();
   return scene;
 }

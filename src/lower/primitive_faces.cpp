@@ -41,10 +41,8 @@ struct Builder {
   LoweredPrimitive& out;
 
   void plane(const Plane& p, Vec3 near_point) {
-    // A point of the plane next to the primitive's middle keeps later numbers small.
-    const Vec3 foot = near_point + p.n * (p.d - dot(p.n, near_point));
     out.half_spaces.push_back(
-        plane_half_space(object_from_local.transposed_vector(p.n), local_from_object.point(foot)));
+        facet_half_space(p, near_point, local_from_object, object_from_local));
   }
 
   void flat(const Shape& shape) {
@@ -98,12 +96,24 @@ struct Builder {
 
 }  // namespace
 
+HalfSpace facet_half_space(const Plane& facet, Vec3 middle, const Affine& local_from_object,
+                           const Affine& object_from_local) {
+  // A point of the plane next to the primitive's middle keeps later numbers small.
+  const Vec3 foot = middle + facet.n * (facet.d - dot(facet.n, middle));
+  return plane_half_space(object_from_local.transposed_vector(facet.n),
+                          local_from_object.point(foot));
+}
+
 void lower_primitive(const Shape& shape, const Affine& local_from_object, LoweredPrimitive& out) {
   out.half_spaces.clear();
   out.outline.clear();
   out.is_ball = false;
   out.tip.reset();
   Builder builder{local_from_object, inverse(local_from_object), out};
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+    out.extent = mesh_extent(*mesh->surface, local_from_object);
+    return;
+  }
   if (is_flat(shape)) {
     builder.flat(shape);
   } else {

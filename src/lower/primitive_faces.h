@@ -22,9 +22,15 @@ struct LoweredPrimitive {
   std::optional<Vec3> tip;
 };
 
+/// A facet of a mesh: its plane under an invertible transform, whose inverse is given too.
+/// `middle`: a point in the midst of the mesh, mesh coordinates.
+HalfSpace facet_half_space(const Plane& facet, Vec3 middle, const Affine& local_from_object,
+                           const Affine& object_from_local);
+
 /// Lowers one shape (not empty) under an invertible transform. The true sphere is one quadric,
-/// the true cylinder or cone a quadric and two planes, everything flat its facets. If numbers
-/// overflow there are no half-spaces. `out` is reused.
+/// the true cylinder or cone a quadric and two planes, everything flat its facets; of a mesh, which
+/// may have millions, the extent alone. If numbers overflow there are no half-spaces. `out` is
+/// reused.
 void lower_primitive(const Shape& shape, const Affine& local_from_object, LoweredPrimitive& out);
 
 }  // namespace whittle

@@ -11,6 +11,7 @@
 #include "base/affine.h"
 #include "base/box.h"
 #include "kernels/kernels.h"
+#include "lower/boundary.h"
 #include "lower/formula.h"
 
 namespace whittle {
@@ -40,7 +41,7 @@ struct Face {
   uint32_t unit = 0;
 };
 
-/// A primitive: the conjunction of its faces.
+/// A primitive: the conjunction of its faces, or what is inside of a boundary.
 struct Unit {
   uint32_t id = 0;          ///< of the primitive statement
   uint32_t first_face = 0;  ///< into Scene::faces
@@ -51,7 +52,10 @@ struct Unit {
   uint32_t first_box = kNoBoxes;  ///< into Scene::face_boxes, one a face; only where there are many
   uint32_t box_frame = 0;         ///< into Scene::box_frames, if it has boxes
 
-  static constexpr uint32_t kNoBoxes = UINT32_MAX;
+  uint32_t boundary = kNoBoundary;  ///< into Scene::boundaries; then the faces are its planes
+
+  static constexpr uint32_t kNoBoxes = UINT32_MAX, kNoBoundary = UINT32_MAX;
+  bool is_conjunction() const { return boundary == kNoBoundary; }
 };
 
 struct Scene {
@@ -67,6 +71,7 @@ struct Scene {
   /// more than rounding and merging can have moved it.
   std::vector<Box> face_boxes;
   std::vector<Affine> box_frames;  ///< own from local
+  std::vector<Boundary> boundaries;
   Formula formula;
 };
 

@@ -20,6 +20,8 @@ struct RawMesh {
   std::vector<std::vector<uint32_t>> faces;
   /// Triangles, in place of `faces` where there are millions.
   std::vector<std::array<uint32_t, 3>> triangles;
+  /// Made so that no point is given twice, every edge is closed, and all faces face outward.
+  bool is_closed = false;
 };
 
 struct ClosedMesh {
@@ -29,10 +31,13 @@ struct ClosedMesh {
   size_t turned_faces = 0;  ///< faces that were turned to agree with their neighbours
 };
 
-/// Welds points that differ by less than `digits` of the extents can tell (half a unit of the sixth
-/// digit; 0 for bodies made of numbers), cuts faces into triangles, turns faces consistently edge
-/// by edge within each connected part, leaves out parts that stay open, and finds which triangles
-/// lie in one plane. Linear but for sorting.
-ClosedMesh close_mesh(const RawMesh& raw, double digits);
+/// Closes a surface, with coordinates of so many significant decimal digits (0: as many as a double
+/// has). Points closer than half a unit of the last digit of the largest coordinate are one. Faces
+/// are cut into triangles and, within each part that hangs together by edges, turned so that
+/// neighbours agree, most of them as they were. Parts that have an open edge are left out. If the
+/// volume of all is negative all is turned; a part of negative volume that no other is around is
+/// turned, too. Faces with a corner that is not finite, or farther away than 1e75, are not there.
+/// Linear, but for the faces that have thousands of corners.
+ClosedMesh close_mesh(const RawMesh& raw, int digits);
 
 }  // namespace whittle

@@ -8,6 +8,7 @@
 
 #include "base/box.h"
 #include "model/model.h"
+#include "model/triangle_mesh.h"
 
 namespace whittle {
 
@@ -33,6 +34,10 @@ Extent curved_extent(const Shape& shape, std::span<const Vec3> outline, const Af
 
 /// The same for a flat shape whose outline and facet planes (own coordinates) are at hand.
 Extent flat_extent(std::span<const Vec3> outline, std::span<const Plane> planes, const Affine& map);
+
+/// The same for a mesh. Its width is twice its volume over its area: the thickness of what is thin
+/// everywhere.
+Extent mesh_extent(const TriangleMesh& mesh, const Affine& map);
 
 /// The same seen from a region: what is larger than the region's ball counts as that ball.
 /// An empty region changes nothing.

@@ -52,17 +52,17 @@ void LeafAnalysis::analyse(std::span<const Token> formula) {
     const Face& face = scene_.faces[token.payload()];
     if (face.unit != last_unit) ++primitive_count_;
     last_unit = face.unit;
-    half_spaces_.push_back({face.literal >> 1, face.unit + 1});
+    half_spaces_.push_back({face.literal >> 1, scene_.units[face.unit].id});
   }
   is_one_group_ = !has_and || !has_or;
   std::sort(half_spaces_.begin(), half_spaces_.end(),
             [](const Used& a, const Used& b) { return a.half_space < b.half_space; });
   size_t kept = 0;
   for (const Used& used : half_spaces_) {
-    if (kept > 0 && half_spaces_[kept - 1].half_space == used.half_space)
-      half_spaces_[kept - 1].owner = 0;
-    else
+    if (kept == 0 || half_spaces_[kept - 1].half_space != used.half_space)
       half_spaces_[kept++] = used;
+    else if (half_spaces_[kept - 1].owner != used.owner)
+      half_spaces_[kept - 1].owner = kSharedOwner;
   }
   half_spaces_.resize(kept);
   has_table_ = kept <= kTableLiterals;
@@ -141,7 +141,7 @@ CellLink LeafAnalysis::write(Arena& arena) {
   steps_.clear();
   if (kind == CellKind::kProgram) make_program();
   const bool shared = std::any_of(half_spaces_.begin(), half_spaces_.end(),
-                                  [](const Used& used) { return used.owner == 0; });
+                                  [](const Used& used) { return used.owner == kSharedOwner; });
   Leaf leaf;
   leaf.table = has_table_ ? table_ : 0;
   leaf.literal_count = size();
@@ -152,8 +152,7 @@ CellLink LeafAnalysis::write(Arena& arena) {
   auto* literal = const_cast<LeafLiteral*>(written->literals().data());
   for (uint32_t i = 0; i < size(); ++i) {
     const Used& used = half_spaces_[i];
-    const uint32_t owner = used.owner == 0 ? kSharedOwner : scene_.units[used.owner - 1].id;
-    ::new (literal + i) LeafLiteral{signed_literals ? signs_[i] : used.half_space * 2, owner};
+    ::new (literal + i) LeafLiteral{signed_literals ? signs_[i] : used.half_space * 2, used.owner};
   }
   std::uninitialized_copy(steps_.begin(), steps_.end(), const_cast<Step*>(written->steps().data()));
   std::uninitialized_copy_n(formula_.begin(), leaf.token_count,

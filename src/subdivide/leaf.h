@@ -35,7 +35,7 @@ class LeafAnalysis {
  private:
   struct Used {
     uint32_t half_space;
-    uint32_t owner;  ///< unit + 1, or 0 if several tokens use it
+    uint32_t owner;  ///< id of the body; kSharedOwner if faces of several lie on it
   };
   uint32_t position(uint32_t half_space) const;
   void compute_table();

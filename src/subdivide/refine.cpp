@@ -54,6 +54,10 @@ double half_area(const Box& box) {
   return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
+Expand expand_of(uint32_t literals) {
+  return literals <= kExpandAll ? Expand::kUnits : Expand::kLarge;
+}
+
 bool has_units(std::span<const Token> formula) {
   return std::any_of(formula.begin(), formula.end(),
                      [](Token token) { return token.kind() == TokenKind::kUnit; });
@@ -147,22 +151,25 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
   const bool small = settings_.is_small && settings_.is_small(world);
   const double rays = edge * edge * settings_.rays;
   const bool is_auto = settings_.leaf_size == kAutoLeafSize;
-  const bool useless =
-      !has_threshold_ && (is_auto ? !pays_off(open.literals, rays)
-                                  : edge * edge * open.literals < settings_.least_use);
+  const bool useless = !has_threshold_ &&
+                       (is_auto ? !pays_off(open.literals, rays)
+                                : edge * edge * open.literals < settings_.least_use) &&
+                       !open.is_crowded;
   const size_t split_bytes = 2 * (sizeof(Cell) + bytes_unsplit(open.literals, open.token_count));
   const bool must_end_anyway = useless || edge * 0.5 < settings_.smallest_edge ||
                                open.stalled >= stall_limit(open.literals) ||
                                open.depth >= kMostDepth || open.memory < split_bytes;
   const bool must_end = small || must_end_anyway;
   std::span<const Token> formula = open.tokens();
+  // To split a crowd of triangles takes much less than to make a formula of them.
   const bool is_long =
-      open.literals > kExpandAll && !must_end_anyway && !has_few_half_spaces(formula);
+      !must_end_anyway &&
+      (open.is_crowded || (open.literals > kExpandAll && !has_few_half_spaces(formula)));
   is_small_ = small;
   across_ = is_long ? Across::kUnknown : Across::kSame;
   if (is_long && !small) return false;
   if (has_units(formula)) {
-    const Truth truth = simplifier_.simplify(formula, open.box, true, expanded_);
+    const Truth truth = simplifier_.simplify(formula, open.box, Expand::kAll, expanded_);
     if (truth != Truth::kVaries) {
       link = decided(truth == Truth::kTrue);
       return true;
@@ -220,10 +227,12 @@ void Refiner::halve(const OpenCell& parent, int axis, Halves& halves) {
     part.box = parent.box;
     (side == 0 ? part.box.hi : part.box.lo)[axis] = halves.at;
     stats_.classified += parent.token_count;
-    halves.truth[side] = simplifier_.simplify(parent.tokens(), part.box,
-                                              parent.literals <= kExpandAll, halves.formula[side]);
+    halves.truth[side] = simplifier_.simplify(parent.tokens(), part.box, expand_of(parent.literals),
+                                              halves.formula[side]);
     if (halves.truth[side] != Truth::kVaries) continue;
-    part.literals = expanded_size(scene_, halves.formula[side]);
+    const Simplifier::Size size = simplifier_.size_of(halves.formula[side]);
+    part.literals = size.literals;
+    part.is_crowded = size.is_crowded;
     halves.cost += half_area(part.box) * part.literals;
   }
 }
@@ -242,8 +251,9 @@ CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
     unsplit[side] = bytes_unsplit(halves_.part[side].literals, halves_.formula[side].size());
     weight[side] = halves_.part[side].literals + kFew;
   }
-  const bool stalls = std::ranges::all_of(
-      halves_.part, [&](const OpenCell& part) { return part.literals >= parent.literals; });
+  const bool stalls = std::ranges::all_of(halves_.part, [&](const OpenCell& part) {
+    return part.literals >= parent.literals && !part.is_crowded;
+  });
   const size_t taken = 2 * sizeof(Cell) + unsplit[0] + unsplit[1];
   const double rest = parent.memory > taken ? double(parent.memory - taken) : 0;
   Cell* const cells = new_pair();
@@ -317,13 +327,15 @@ std::optional<CellLink> Refiner::open_parts(const Cell& cell, const OpenCell& pa
     Refiner& refiner = helpers == nullptr ? *this : helpers->refiner_of(worker);
     for (size_t part = first; part < last; ++part) {
       refiner.stats_.classified += formulas[part].size();
-      OpenCell child{grid.part(part), 0, parent.depth + splits, 0, 0, 0};
+      OpenCell child{grid.part(part), 0, parent.depth + splits, 0, 0, false, 0};
       Formula& formula = refiner.halves_.formula[0];
       const Truth truth = refiner.simplifier_.simplify(formulas[part], child.box,
-                                                       literals[part] <= kExpandAll, formula);
+                                                       expand_of(literals[part]), formula);
       links[part] = decided(truth == Truth::kTrue);
       if (truth != Truth::kVaries) continue;
-      child.literals = expanded_size(scene_, formula);
+      const Simplifier::Size size = refiner.simplifier_.size_of(formula);
+      child.literals = size.literals;
+      child.is_crowded = size.is_crowded;
       links[part] = refiner.open(child, formula);
       opened[part] = static_cast<OpenCell*>(const_cast<void*>(links[part].target()));
     }
@@ -421,15 +433,17 @@ CellLink Refiner::open_region() {
   if (scene_.region.is_empty()) return decided(false);
   Formula simplified;
   std::span<const Token> formula = scene_.formula;
+  Simplifier::Size size{expanded_size(scene_, formula), !scene_.boundaries.empty()};
   // Of a wide one nearly all is in the region, and its parts will be looked at by all threads.
   if (!is_wide(formula, 0)) {
     stats_.classified += formula.size();
-    const bool expand_all = expanded_size(scene_, formula) <= kExpandAll;
-    const Truth truth = simplifier_.simplify(formula, scene_.region, expand_all, simplified);
+    const Truth truth =
+        simplifier_.simplify(formula, scene_.region, expand_of(size.literals), simplified);
     if (truth != Truth::kVaries) return decided(truth == Truth::kTrue);
     formula = simplified;
+    size = simplifier_.size_of(formula);
   }
-  return open({scene_.region, settings_.memory, 0, 0, expanded_size(scene_, formula), 0}, formula);
+  return open({scene_.region, settings_.memory, 0, 0, size.literals, size.is_crowded, 0}, formula);
 }
 
 /// Whether a formula, however long, has no more half-spaces than a truth table can hold: many
@@ -449,6 +463,7 @@ bool Refiner::has_few_half_spaces(std::span<const Token> formula) const {
     if (token.is_group()) return true;
     if (token.kind() == TokenKind::kFace) return is_one_more_known(token.payload());
     const Unit& unit = scene_.units[token.payload()];
+    if (!unit.is_conjunction()) return false;
     for (uint32_t k = 0; k < unit.face_count; ++k)
       if (!is_one_more_known(unit.first_face + k)) return false;
     return true;

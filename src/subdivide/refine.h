@@ -28,6 +28,7 @@ struct OpenCell {
   uint32_t depth;
   uint32_t stalled;   ///< splits since the formula last became shorter
   uint32_t literals;  ///< of the formula, expanded
+  bool is_crowded;    ///< boundaries are in it with many more triangles (Simplifier::Size)
   uint32_t token_count;
 
   std::span<const Token> tokens() const {

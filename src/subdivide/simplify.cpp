@@ -24,13 +24,14 @@ bool Simplifier::joins_group_around(TokenKind kind, size_t depth) const {
   return depth > 0 && open_[depth - 1].kind == kind;
 }
 
-Truth Simplifier::unit(Token token, const CellBox& cell, double cell_edge, bool expand_all,
+Truth Simplifier::unit(Token token, const CellBox& cell, double cell_edge, Expand expand,
                        Formula& out, Kept& kept) {
   const Unit& unit = scene_.units[token.payload()];
   const bool negated = token.negated();
   const Side side = classify_bounds(unit, cell);
   if (side != Side::kCrosses) return truth(side, negated);
-  if (!expand_all && cell_edge > max_component(unit.outer.size())) {
+  if (!unit.is_conjunction()) return boundary(token, cell, expand, out, kept);
+  if (expand == Expand::kLarge && cell_edge > max_component(unit.outer.size())) {
     out.push_back(token);
     return Truth::kVaries;
   }
@@ -46,6 +47,35 @@ Truth Simplifier::unit(Token token, const CellBox& cell, double cell_edge, bool 
   faces.operands = uint32_t(out.size()) - faces.header - 1;
   open_.push_back(faces);
   kept = close_group(faces, out);
+  open_.pop_back();
+  return Truth::kVaries;
+}
+
+/// A boundary of which nothing is in the cell is decided there. Else it stays whole, or a formula
+/// is made of what is.
+Truth Simplifier::boundary(Token token, const CellBox& cell, Expand expand, Formula& out,
+                           Kept& kept) {
+  const Unit& unit = scene_.units[token.payload()];
+  const bool negated = token.negated();
+  if (expand != Expand::kAll) {
+    const uint32_t half_spaces = bsp_.count(unit, cell);
+    if (half_spaces == 0)
+      return truth(bsp_.is_inside(unit, cell) ? Side::kInside : Side::kOutside, negated);
+    counted_.push_back({token.payload(), half_spaces});
+    out.push_back(token);
+    return Truth::kVaries;
+  }
+  const std::span<const Token> formula = bsp_.formula(unit, cell, negated);
+  const Token head = formula[0];
+  if (!head.is_group()) {
+    out.push_back(head);
+    return Truth::kVaries;
+  }
+  if (head.payload() == 1) return head.kind() == TokenKind::kAnd ? Truth::kTrue : Truth::kFalse;
+  const Open group{head.kind(), 0, uint32_t(out.size()), bsp_.operands(), {}};
+  out.insert(out.end(), formula.begin(), formula.end());
+  open_.push_back(group);
+  kept = close_group(group, out);
   open_.pop_back();
   return Truth::kVaries;
 }
@@ -171,11 +201,12 @@ Simplifier::Kept Simplifier::close_group(const Open& group, Formula& out) const 
   return {only.in_group, kNone, 0};
 }
 
-Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, bool expand_all,
+Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, Expand expand,
                            Formula& out) {
   const CellBox cell(cell_box, margin_);
   const double cell_edge = max_component(cell_box.size());
-  tight_ = expand_all;
+  tight_ = expand != Expand::kLarge;
+  counted_.clear();
   out.clear();
   open_.clear();
   const bool in_batches = boxes_.are_worth_it(in.size());
@@ -222,7 +253,7 @@ Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, bool 
     } else if ((batch.balls & bit) != 0) {
       out.push_back(token);
     } else if (token.kind() == TokenKind::kUnit) {
-      value = unit(token, cell, cell_edge, expand_all, out, kept);
+      value = unit(token, cell, cell_edge, expand, out, kept);
     } else {
       // The faces of one primitive stand in a row.
       const uint32_t first = i;
@@ -267,11 +298,31 @@ Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, bool 
   }
 }
 
+Simplifier::Size Simplifier::size_of(std::span<const Token> written) const {
+  Size size{expanded_size(scene_, written), false};
+  if (counted_.empty()) return size;
+  // They stand in the order in which they were counted.
+  auto next = counted_.begin();
+  for (const Token token : written) {
+    if (token.kind() != TokenKind::kUnit || scene_.units[token.payload()].is_conjunction())
+      continue;
+    while (next->unit != token.payload()) ++next;
+    if (next->half_spaces == LocalBsp::kTooMany)
+      size.is_crowded = true;
+    else
+      size.literals -= kManyLiterals - next->half_spaces;
+    ++next;
+  }
+  return size;
+}
+
 uint32_t expanded_size(const Scene& scene, std::span<const Token> formula) {
   uint32_t count = 0;
   for (const Token token : formula) {
     if (token.kind() == TokenKind::kFace) ++count;
-    if (token.kind() == TokenKind::kUnit) count += scene.units[token.payload()].face_count;
+    if (token.kind() != TokenKind::kUnit) continue;
+    const Unit& unit = scene.units[token.payload()];
+    count += unit.is_conjunction() ? unit.face_count : kManyLiterals;
   }
   return count;
 }

@@ -10,9 +10,18 @@
 
 #include "lower/scene.h"
 #include "subdivide/classify.h"
+#include "subdivide/local_bsp.h"
 #include "subdivide/unit_boxes.h"
 
 namespace whittle {
+
+/// Which primitives are replaced by what they say in a cell.
+enum class Expand : uint8_t {
+  kLarge,  ///< those that are no smaller than the cell; no boundaries
+  kUnits,  ///< all but boundaries
+  kAll,    ///< all: the formula is of faces only. It serves a leaf; parts of the cell had better be
+           ///< simplified from one in which boundaries are whole.
+};
 
 enum class Truth : uint8_t { kFalse, kTrue, kVaries };
 
@@ -21,14 +30,22 @@ class Simplifier {
   /// `boxes` are the scene's. `margin`: how far a cell is grown before anything is classified,
   /// local units.
   Simplifier(const Scene& scene, const UnitBoxes& boxes, double margin)
-      : scene_(scene), boxes_(boxes), margin_(margin) {}
+      : scene_(scene), boxes_(boxes), margin_(margin), bsp_(scene) {}
 
   /// Writes to `out` the formula that equals `in` at every point of `cell`, operands in the same
-  /// order; returns its truth, and leaves `out` empty if that is constant. A primitive is replaced
-  /// by those of its faces that cross the cell as soon as the cell is no larger than it, or if
-  /// `expand_all`. `in` and `out` must not overlap. Linear in `in` and the faces looked at; what a
+  /// order; returns its truth, and leaves `out` empty if that is constant. `in` and `out` must not
+  /// overlap; boundaries must be whole in `in`. Linear in `in` and the faces looked at; what a
   /// decided group holds is skipped.
-  Truth simplify(std::span<const Token> in, const Box& cell, bool expand_all, Formula& out);
+  Truth simplify(std::span<const Token> in, const Box& cell, Expand expand, Formula& out);
+
+  /// Literals that the formula written last would have with all its primitives expanded in the cell
+  /// it was written for, and whether there are boundaries in it with too many to count; each of
+  /// these counts as kManyLiterals.
+  struct Size {
+    uint32_t literals = 0;
+    bool is_crowded = false;
+  };
+  Size size_of(std::span<const Token> written) const;
 
  private:
   /// What an operand that was kept amounts to for the group around it.
@@ -46,8 +63,9 @@ class Simplifier {
   };
   static constexpr uint32_t kNone = UINT32_MAX;
 
-  Truth unit(Token token, const CellBox& cell, double cell_edge, bool expand_all, Formula& out,
+  Truth unit(Token token, const CellBox& cell, double cell_edge, Expand expand, Formula& out,
              Kept& kept);
+  Truth boundary(Token token, const CellBox& cell, Expand expand, Formula& out, Kept& kept);
   template <class FaceAt>
   Truth conjunction(FaceAt&& face_at, uint32_t count, bool negated, const CellBox& cell,
                     Formula& out);
@@ -62,7 +80,17 @@ class Simplifier {
   double margin_;
   bool tight_ = false;  ///< few operands are looked at, so that each may take its time
   std::vector<Open> open_;
+  LocalBsp bsp_;
+  /// Boundaries that stayed whole, and their half-spaces in the cell; some may have gone since.
+  struct Counted {
+    uint32_t unit, half_spaces;
+  };
+  std::vector<Counted> counted_;
 };
+
+/// What a boundary counts for whose half-spaces in a cell are not counted: as if they were one
+/// too many. It will be split until they are few.
+inline constexpr uint32_t kManyLiterals = LocalBsp::kMostCounted + 1;
 
 /// Literals that a formula would have with all its primitives expanded.
 uint32_t expanded_size(const Scene& scene, std::span<const Token> formula);

@@ -159,7 +159,8 @@ TEST(Simplify, KeepsTheValueInsideTheCell) {
     Simplifier simplifier(scene, boxes, 0);
     Formula outer, inner;
     const Box box = points.box_in(scene.region);
-    const Truth truth = simplifier.simplify(scene.formula, box, seed % 2, outer);
+    const Truth truth =
+        simplifier.simplify(scene.formula, box, seed % 2 ? Expand::kUnits : Expand::kLarge, outer);
     shorter += outer.size() < scene.formula.size();
     constant += truth != Truth::kVaries;
     for (int i = 0; i < 20; ++i) {
@@ -170,7 +171,7 @@ TEST(Simplify, KeepsTheValueInsideTheCell) {
     if (truth != Truth::kVaries) continue;
     // From the parent's formula as from the whole one.
     const Box child = points.box_in(box);
-    const Truth child_truth = simplifier.simplify(outer, child, true, inner);
+    const Truth child_truth = simplifier.simplify(outer, child, Expand::kUnits, inner);
     for (int i = 0; i < 20; ++i) {
       const Vec3 p = points.in(child);
       const bool whole = contains(scene, scene.formula, p);
@@ -198,10 +199,10 @@ TEST(Simplify, TwiceIsOnce) {
     Simplifier simplifier(scene, boxes, 0);
     Formula once, twice, thrice;
     const Box box = points.box_in(scene.region);
-    if (simplifier.simplify(scene.formula, box, true, once) != Truth::kVaries) continue;
-    ASSERT_EQ(simplifier.simplify(once, box, true, twice), Truth::kVaries);
+    if (simplifier.simplify(scene.formula, box, Expand::kUnits, once) != Truth::kVaries) continue;
+    ASSERT_EQ(simplifier.simplify(once, box, Expand::kUnits, twice), Truth::kVaries);
     EXPECT_EQ(bare(once).size(), bare(twice).size()) << seed;
-    ASSERT_EQ(simplifier.simplify(twice, box, true, thrice), Truth::kVaries);
+    ASSERT_EQ(simplifier.simplify(twice, box, Expand::kUnits, thrice), Truth::kVaries);
     EXPECT_EQ(twice, thrice) << seed;
   }
 }
@@ -215,7 +216,7 @@ TEST(Simplify, AGroupLeftWithOneOperandJoinsTheGroupAround) {
   Simplifier simplifier(scene, boxes, 0);
   Formula out;
   const Box cell{Vec3{0.4, -0.5, -1} - scene.origin, Vec3{0.6, 0.5, 1} - scene.origin};
-  ASSERT_EQ(simplifier.simplify(scene.formula, cell, true, out), Truth::kVaries);
+  ASSERT_EQ(simplifier.simplify(scene.formula, cell, Expand::kUnits, out), Truth::kVaries);
   LeafAnalysis leaf(scene);
   leaf.analyse(out);
   EXPECT_EQ(leaf.size(), 2u);
@@ -242,7 +243,7 @@ TEST(Simplify, FacetsOfTurnedBodiesAreTheWholeBodyInTheCell) {
       const Vec3 at = points.in(scene.region);
       const double half = 0.002 * (1 << i % 8);
       const Box cell{at - Vec3{half, half, half}, at + Vec3{half, half, half}};
-      const Truth truth = simplifier.simplify(scene.formula, cell, true, out);
+      const Truth truth = simplifier.simplify(scene.formula, cell, Expand::kUnits, out);
       decided += truth != Truth::kVaries;
       for (int j = 0; j < 10; ++j) {
         const Vec3 p = points.in(cell);
@@ -264,7 +265,7 @@ TEST(Simplify, LongFacetsAslantAreDroppedWhereTheyAreNot) {
   size_t most = 0;
   for (int i = 0; i < 2000; ++i) {
     const Vec3 at = points.in(scene.region), half{0.01, 0.01, 0.01};
-    simplifier.simplify(scene.formula, {at - half, at + half}, true, out);
+    simplifier.simplify(scene.formula, {at - half, at + half}, Expand::kUnits, out);
     most = std::max(most, out.size());
   }
   // Twelve facets are as wide as the cell's diagonal; the planes of two hundred cross it.
@@ -284,9 +285,9 @@ TEST(Simplify, FacetsThatDoNotReachTheCellAreDropped) {
     Box box;
     box.include(points.in(scene.region));
     box.include(box.lo + scene.region.size() * 0.15);
-    if (simplifier.simplify(scene.formula, box, true, outer) != Truth::kVaries) continue;
+    if (simplifier.simplify(scene.formula, box, Expand::kUnits, outer) != Truth::kVaries) continue;
     Box child = points.box_in(box);
-    const Truth truth = simplifier.simplify(outer, child, true, inner);
+    const Truth truth = simplifier.simplify(outer, child, Expand::kUnits, inner);
     for (int j = 0; j < 20; ++j) {
       const Vec3 p = points.in(box), q = points.in(child);
       ASSERT_EQ(contains(scene, outer, p), contains(scene, scene.formula, p));

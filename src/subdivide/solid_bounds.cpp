@@ -83,6 +83,8 @@ class Search {
     uint64_t order;  ///< of those that reach equally far, the newest comes first: depth first
     Box box;
     Formula formula;
+    Simplifier::Size size;  ///< of the formula
+    Formula faces;          ///< the formula, expanded
   };
   static bool comes_later(const Cell& a, const Cell& b) {
     return a.reach != b.reach ? a.reach < b.reach : a.order < b.order;
@@ -97,15 +99,37 @@ class Search {
   double reach_of(const Box& box) const { return sign_ > 0 ? box.hi[axis_] : -box.lo[axis_]; }
   double depth_of(const Box& box) const { return sign_ > 0 ? box.lo[axis_] : -box.hi[axis_]; }
 
+  /// Simplifies a formula for a box. What is all solid is noted.
+  Truth simplify(const Formula& around, const Box& box, Formula& out) {
+    const Expand expand =
+        expanded_size(scene_, around) <= kExpandAll ? Expand::kUnits : Expand::kLarge;
+    const Truth truth = simplifier_.simplify(around, box, expand, out);
+    if (truth == Truth::kTrue) best_ = std::max(best_, reach_of(box));
+    return truth;
+  }
+
+  /// Expands a cell's formula, if all in it can be. No faces: nothing there is beyond what is
+  /// known.
+  bool make_faces_of(Cell& cell) {
+    if (!has_units(cell.formula)) {
+      cell.faces = cell.formula;
+      return true;
+    }
+    if (!has_boundaries(cell.formula)) return false;
+    tokens_ += cell.formula.size();
+    const Truth truth = simplifier_.simplify(cell.formula, cell.box, Expand::kAll, cell.faces);
+    if (truth == Truth::kTrue) best_ = std::max(best_, reach_of(cell.box));
+    return true;
+  }
+
   /// Simplifies `around` for the box and opens it, unless it is decided.
   void open_child(const Formula& around, const Box& box) {
     tokens_ += around.size();
     Formula formula;
-    const bool expand_all = expanded_size(scene_, around) <= kExpandAll;
-    const Truth truth = simplifier_.simplify(around, box, expand_all, formula);
-    if (truth == Truth::kTrue) best_ = std::max(best_, reach_of(box));
+    const Truth truth = simplify(around, box, formula);
     if (truth != Truth::kVaries) return;
-    open_.push_back({reach_of(box), order_++, box, std::move(formula)});
+    const Simplifier::Size size = simplifier_.size_of(formula);
+    open_.push_back({reach_of(box), order_++, box, std::move(formula), size, {}});
     std::ranges::push_heap(open_, comes_later);
   }
 
@@ -116,14 +140,14 @@ class Search {
       (sign_ > 0 ? cell.box.lo : cell.box.hi)[axis_] = sign_ * needed;
       tokens_ += cell.formula.size();
       Formula formula;
-      const bool expand_all = expanded_size(scene_, cell.formula) <= kExpandAll;
-      const Truth truth = simplifier_.simplify(cell.formula, cell.box, expand_all, formula);
-      if (truth == Truth::kTrue) best_ = std::max(best_, reach_of(cell.box));
+      const Truth truth = simplify(cell.formula, cell.box, formula);
       if (truth != Truth::kVaries) return;
       cell.formula = std::move(formula);
+      cell.size = simplifier_.size_of(cell.formula);
     }
     int split_axis = longest_axis(cell.box);
-    if (expanded_size(scene_, cell.formula) <= kFewLiterals && !has_units(cell.formula)) {
+    if (!cell.size.is_crowded && cell.size.literals <= kFewLiterals && make_faces_of(cell)) {
+      if (cell.faces.empty()) return;
       const double reach = reach_of_terms(cell);
       if (reach <= best_ + accuracy_) return;
       if (reach < reach_of(cell.box)) {
@@ -155,7 +179,7 @@ class Search {
   int most_bent_axis(const Cell& cell, int otherwise) const {
     const Vec3 h = cell.box.size() * 0.5;
     Vec3 bend{};
-    for (const Token token : cell.formula) {
+    for (const Token token : cell.faces) {
       if (token.kind() != TokenKind::kFace) continue;
       const auto& f = scene_.half_spaces[scene_.faces[token.payload()].literal >> 1].f;
       const Vec3 a = abs(f.diag), mixed = abs(f.off);
@@ -171,16 +195,22 @@ class Search {
                                [](Token token) { return token.kind() == TokenKind::kUnit; });
   }
 
+  bool has_boundaries(const Formula& formula) const {
+    return std::ranges::any_of(formula, [&](Token token) {
+      return token.kind() == TokenKind::kUnit && !scene_.units[token.payload()].is_conjunction();
+    });
+  }
+
   /// How far the formula can reach in the cell, and on the way the best point found in it.
   double reach_of_terms(const Cell& cell) {
     double reach = -kInfinity;
     size_t terms = 0;
     std::vector<Term> pending(1);
-    push_operands(cell.formula, 0, cell.formula.size(), pending[0].operands);
+    push_operands(cell.faces, 0, cell.faces.size(), pending[0].operands);
     while (!pending.empty()) {
       Term term = std::move(pending.back());
       pending.pop_back();
-      if (!expand(cell.formula, term, pending)) continue;
+      if (!expand(cell.faces, term, pending)) continue;
       if (++terms > kMostTerms) return reach_of(cell.box);
       reach = std::max(reach, reach_of_term(cell, term.literals));
     }
@@ -293,7 +323,7 @@ class Search {
       if (reach_of(q) <= best_) return;
       Formula ignored;
       tokens_ += cell.formula.size();
-      if (simplifier_.simplify(cell.formula, {q, q}, true, ignored) == Truth::kTrue)
+      if (simplifier_.simplify(cell.formula, {q, q}, Expand::kAll, ignored) == Truth::kTrue)
         best_ = reach_of(q);
     }
   }

@@ -137,7 +137,7 @@ bool has_solid_in(const Scene& scene, const Box& box, double smallest) {
     const Item item = std::move(stack.back());
     stack.pop_back();
     Item low;
-    const Truth truth = simplifier.simplify(item.formula, item.box, true, low.formula);
+    const Truth truth = simplifier.simplify(item.formula, item.box, Expand::kUnits, low.formula);
     if (truth == Truth::kFalse) continue;
     if (truth == Truth::kTrue || contains(scene, low.formula, item.box.center())) return true;
     leaf.analyse(low.formula);

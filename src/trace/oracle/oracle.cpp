@@ -8,6 +8,7 @@
 #include "base/workers.h"
 #include "model/instances.h"
 #include "trace/oracle/boolean_tree.h"
+#include "trace/oracle/mesh_crossings.h"
 #include "trace/oracle/span.h"
 
 namespace whittle {
@@ -27,6 +28,7 @@ struct Scratch {
   explicit Scratch(const BooleanTree& tree) : state(tree) {}
   BooleanState state;
   std::vector<Crossing> crossings;
+  std::vector<MeshCrossing> of_mesh;
 };
 
 class OracleTracer final : public Tracer {
@@ -40,7 +42,11 @@ class OracleTracer final : public Tracer {
         workers_(threads) {
     for (uint32_t leaf = 0; leaf < instances_.size(); ++leaf) {
       ids_.push_back(model.primitives[instances_[leaf].primitive].id);
-      if (!instances_[leaf].empty) leaves_.push_back(leaf);
+      if (instances_[leaf].empty) continue;
+      leaves_.push_back(leaf);
+      const auto* mesh = std::get_if<Mesh>(&model.primitives[instances_[leaf].primitive].shape);
+      meshes_.push_back(mesh ? world_mesh(*mesh->surface, instances_[leaf].world_from_object)
+                             : WorldMesh{});
     }
   }
 
@@ -96,6 +102,13 @@ class OracleTracer final : public Tracer {
     std::vector<Crossing>& crossings = scratch.crossings;
     crossings.clear();
     for (size_t i = 0; i < surfaces_.solid_count(); ++i) {
+      if (!meshes_[i].triangles.empty()) {
+        scratch.of_mesh.clear();
+        mesh_crossings(surfaces_, i, meshes_[i], ray.origin, ray.direction, scratch.of_mesh);
+        for (const MeshCrossing& c : scratch.of_mesh)
+          crossings.push_back({c.t, leaves_[i], c.enters, c.normal});
+        continue;
+      }
       const Span span = ray_span(surfaces_, i, ray.origin, ray.direction);
       if (span.is_empty()) continue;
       if (std::isfinite(span.t0))
@@ -119,7 +132,7 @@ class OracleTracer final : public Tracer {
       while (++group_end < crossings.size() && crossings[group_end].t <= last);
       if (state.has_changed() && !is_passed(crossings[begin])) {
         const uint32_t owner = state.owner();
-        // A leaf that changed has one crossing here.
+        // A leaf that changed has one crossing here, or is a mesh and the first tells.
         const auto crossing = std::find_if(crossings.begin() + std::ptrdiff_t(begin),
                                            crossings.begin() + std::ptrdiff_t(group_end),
                                            [&](const Crossing& c) { return c.leaf == owner; });
@@ -140,8 +153,9 @@ class OracleTracer final : public Tracer {
   double together_;
   Surfaces surfaces_;  ///< of those instances that are not empty
   Workers workers_;
-  std::vector<uint32_t> ids_;     ///< of the instances
-  std::vector<uint32_t> leaves_;  ///< the indices of the solids among the instances
+  std::vector<uint32_t> ids_;      ///< of the instances
+  std::vector<WorldMesh> meshes_;  ///< one a solid; without triangles if it is none
+  std::vector<uint32_t> leaves_;   ///< the indices of the solids among the instances
 };
 
 }  // namespace

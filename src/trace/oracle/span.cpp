@@ -146,6 +146,20 @@ Span ray_span(const Surfaces& surfaces, size_t solid, Vec3 origin, Vec3 directio
   return span;
 }
 
+PlaneCrossing plane_crossing(const Surfaces& surfaces, const SurfaceFace& face, Vec3 origin,
+                             Vec3 direction) {
+  const Surface& surface = surfaces.all[face.surface];
+  const Surfaces::Frame& frame = surfaces.frames[surface.frame];
+  const Line far_line = {frame.object_from_world.point(origin),
+                         frame.object_from_world.vector(direction)};
+  const double moved = closest_approach(far_line, frame.anchor);
+  const Span span = face_span(surface, face.other_side, {far_line.at(moved), far_line.d});
+  const bool enters = std::isfinite(span.t0);
+  if (span.is_empty() || (!enters && !std::isfinite(span.t1))) return {};
+  return {(enters ? span.t0 : span.t1) + moved,
+          normalize(frame.object_from_world.transposed_vector(enters ? span.n0 : span.n1))};
+}
+
 Span ray_span(const Box& box, Vec3 origin, Vec3 direction) {
   Span span;
   const Line line = {origin, direction};

@@ -19,6 +19,16 @@ struct Span {
 /// normals in world space. Where faces lie on one surface the numbers t are equal to the bit.
 Span ray_span(const Surfaces& surfaces, size_t solid, Vec3 origin, Vec3 direction);
 
+/// Where the line origin + t * direction crosses a face that is flat, and its primitive's unit
+/// outward normal there, world space. Not finite: it does not. The same number to the bit for all
+/// faces on one surface, and as in ray_span.
+struct PlaneCrossing {
+  double t = kInfinity;
+  Vec3 normal;
+};
+PlaneCrossing plane_crossing(const Surfaces& surfaces, const SurfaceFace& face, Vec3 origin,
+                             Vec3 direction);
+
 /// The part of a line inside a box.
 Span ray_span(const Box& box, Vec3 origin, Vec3 direction);
 

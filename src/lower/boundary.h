@@ -1,0 +1,98 @@
+// The surface of a body that is no conjunction of half-spaces, as triangles in a tree of boxes:
+// which of them reach a box, and whether a point is inside.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/affine.h"
+#include "base/box.h"
+#include "model/triangle_mesh.h"
+
+namespace whittle {
+
+class Boundary {
+ public:
+  struct Triangle {
+    std::array<uint32_t, 3> corners{};  ///< counter-clockwise seen from outside
+    uint32_t face = 0;                  ///< into Scene::faces
+  };
+
+  /// `first_face`: into Scene::faces, where the mesh's facets stand. Precondition: the map is
+  /// invertible, the mesh has triangles.
+  Boundary(const TriangleMesh& mesh, const Affine& local_from_mesh, uint32_t first_face);
+
+  Vec3 point(uint32_t corner) const { return points_[corner]; }
+  std::span<const Triangle> triangles() const { return triangles_; }
+
+  /// Corners of triangles are no farther than this from the planes of their faces.
+  double slack() const { return slack_; }
+  /// Measures that anew: `distance(face, point)` from the plane of a face. `rounding`: no less
+  /// than.
+  template <class Distance>
+  void measure_slack(double rounding, const Distance& distance) {
+    slack_ = rounding;
+    for (const Triangle& triangle : triangles_)
+      for (const uint32_t corner : triangle.corners)
+        slack_ = std::max(slack_, 2 * distance(triangle.face, points_[corner]));
+  }
+
+  /// Calls visit(index into triangles()) for the triangles that reach a box, until it returns
+  /// false. The test is exact but for rounding: the box should be a little larger than what
+  /// matters.
+  template <class Visit>
+  void visit_in(Vec3 center, Vec3 half, const Visit& visit) const;
+
+  /// The winding number at a point. Of a point closer to a triangle than rounding it is one of the
+  /// numbers near it.
+  ///
+  /// Counts what is above the point. Edges are looked at as if the point were moved by an
+  /// infinitesimal (Edelsbrunner and Muecke, Simulation of Simplicity, 1990), so that a line along
+  /// an edge or through a corner meets just one of the triangles there.
+  int winding(Vec3 p) const;
+
+ private:
+  /// Single precision, rounded outwards.
+  struct Node {
+    std::array<float, 3> lo, hi;
+    uint32_t first;  ///< leaf: the first triangle; else: the first of two children in a row
+    uint32_t count;  ///< leaf: triangles; else 0
+  };
+  static constexpr uint32_t kLeafTriangles = 4;
+  static constexpr size_t kMostDepth = 96;
+
+  void build();
+  bool reaches(const Triangle& triangle, Vec3 center, Vec3 half) const;
+  int crosses_above(const Triangle& triangle, Vec3 p) const;
+
+  std::vector<Vec3> points_;
+  std::vector<Triangle> triangles_;  ///< in the order of the leaves
+  std::vector<Node> nodes_;          ///< the root first
+  double slack_ = 0;
+};
+
+template <class Visit>
+void Boundary::visit_in(Vec3 center, Vec3 half, const Visit& visit) const {
+  const Vec3 lo = center - half, hi = center + half;
+  std::array<uint32_t, kMostDepth> open;
+  size_t count = 0;
+  open[count++] = 0;
+  while (count > 0) {
+    const Node& node = nodes_[open[--count]];
+    if (hi.x < double(node.lo[0]) || lo.x > double(node.hi[0]) || hi.y < double(node.lo[1]) ||
+        lo.y > double(node.hi[1]) || hi.z < double(node.lo[2]) || lo.z > double(node.hi[2]))
+      continue;
+    if (node.count == 0) {
+      open[count++] = node.first + 1;
+      open[count++] = node.first;
+      continue;
+    }
+    for (uint32_t i = node.first; i < node.first + node.count; ++i)
+      if (reaches(triangles_[i], center, half) && !visit(i)) return;
+  }
+}
+
+}  // namespace whittle

@@ -1,0 +1,451 @@
+#include "subdivide/local_bsp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace whittle {
+namespace {
+
+/// Where in a cell it is asked which side of the boundary that is: places that no model favours, as
+/// shares of the cell's half size.
+constexpr Vec3 kProbes[] = {{0.137, -0.211, 0.173},  {-0.523, 0.317, -0.611},
+                            {0.709, 0.571, -0.367},  {-0.269, -0.743, 0.457},
+                            {0.419, -0.653, -0.787}, {-0.811, 0.149, 0.683}};
+
+/// Weights of a polygon's corners that give points inside of it.
+constexpr double kWeights[][3] = {
+    {1.1, 0.9, 1.3}, {2.3, 0.7, 0.4}, {0.5, 2.1, 0.8}, {0.6, 0.5, 2.7}};
+
+/// So many planes are tried before one of them divides a part.
+constexpr size_t kCandidates = 8;
+
+Vec3 times(Vec3 a, Vec3 b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+}  // namespace
+
+uint32_t LocalBsp::count(const Unit& unit, const CellBox& cell) {
+  constexpr uint32_t kMostTriangles = 64;
+  const Boundary& boundary = scene_.boundaries[unit.boundary];
+  const double slack = boundary.slack();
+  counted_.clear();
+  uint32_t triangles = 0;
+  bool too_many = false;
+  boundary.visit_in(cell.center, cell.half + Vec3{slack, slack, slack}, [&](uint32_t i) {
+    const uint32_t number = scene_.faces[boundary.triangles()[i].face].literal >> 1;
+    if (std::find(counted_.begin(), counted_.end(), number) == counted_.end())
+      counted_.push_back(number);
+    too_many = ++triangles > kMostTriangles || counted_.size() > kMostCounted;
+    return !too_many;
+  });
+  return too_many ? kTooMany : uint32_t(counted_.size());
+}
+
+bool LocalBsp::is_inside(const Unit& unit, const CellBox& cell) const {
+  return scene_.boundaries[unit.boundary].winding(cell.center + times(kProbes[0], cell.half)) != 0;
+}
+
+/// The number of a face's plane in this cell.
+uint32_t LocalBsp::plane_of(uint32_t face, const CellBox& cell) {
+  const uint32_t number = scene_.faces[face].literal >> 1;
+  for (uint32_t i = 0; i < planes_.size(); ++i)
+    if (planes_[i].half_space == number) return i;
+  const HalfSpace& h = scene_.half_spaces[number];
+  const Vec3 n = h.f.b * 2.0;
+  planes_.push_back({n, dot(n, cell.center - h.center) + h.f.c, number, face});
+  return uint32_t(planes_.size() - 1);
+}
+
+/// Keeps of the polygon that `cut_` holds what is at sign * q[axis] <= limit.
+void LocalBsp::clip(uint32_t axis, int sign, double limit) {
+  const size_t n = cut_.size();
+  for (size_t i = 0; i < n; ++i) {
+    const Vec3 p = cut_[i], q = cut_[(i + 1) % n];
+    const double at_p = sign * p[int(axis)] - limit, at_q = sign * q[int(axis)] - limit;
+    if (at_p <= 0) cut_.push_back(p);
+    if ((at_p < 0 && at_q > 0) || (at_p > 0 && at_q < 0))
+      cut_.push_back(p + (q - p) * (at_p / (at_p - at_q)));
+  }
+  cut_.erase(cut_.begin(), cut_.begin() + std::ptrdiff_t(n));
+}
+
+/// The triangles of the boundary, as far as they are in the cell, and their planes.
+void LocalBsp::collect(const Boundary& boundary, const CellBox& cell, Vec3 reach) {
+  planes_.clear();
+  corners_.clear();
+  polygons_.clear();
+  boundary.visit_in(cell.center, reach, [&](uint32_t i) {
+    const Boundary::Triangle& triangle = boundary.triangles()[i];
+    const Literal literal = scene_.faces[triangle.face].literal;
+    // What does not cross the cell parts nothing in it.
+    if (classify(scene_.half_spaces[literal >> 1], cell) != Side::kCrosses) return true;
+    cut_.clear();
+    for (const uint32_t corner : triangle.corners)
+      cut_.push_back(boundary.point(corner) - cell.center);
+    for (uint32_t axis = 0; axis < 3 && !cut_.empty(); ++axis) {
+      clip(axis, 1, reach[int(axis)]);
+      clip(axis, -1, reach[int(axis)]);
+    }
+    if (cut_.size() < 3) return true;
+    polygons_.push_back({uint32_t(corners_.size()), uint32_t(cut_.size()),
+                         plane_of(triangle.face, cell), literal & 1 ? -1 : 1});
+    corners_.insert(corners_.end(), cut_.begin(), cut_.end());
+    return true;
+  });
+}
+
+/// Of the planes of some polygons, the one that cuts the fewest others and leaves as little as can
+/// be on one of its sides: with nothing there, it is one literal beside the rest.
+uint32_t LocalBsp::choose(std::span<const uint32_t> polygons) {
+  uint32_t best = polygons_[polygons[0]].plane;
+  size_t least = SIZE_MAX, tried = 0;
+  uint32_t last = UINT32_MAX;
+  const size_t step = std::max<size_t>(1, polygons.size() / (4 * kCandidates));
+  for (size_t i = 0; i < polygons.size() && tried < kCandidates; i += step) {
+    const uint32_t plane = polygons_[polygons[i]].plane;
+    if (plane == last) continue;
+    last = plane;
+    ++tried;
+    size_t front = 0, back = 0, cut = 0;
+    for (const uint32_t number : polygons) {
+      const Polygon& polygon = polygons_[number];
+      if (polygon.plane == plane) continue;
+      bool has_front = false, has_back = false;
+      for (uint32_t k = polygon.first; k < polygon.first + polygon.count; ++k) {
+        const double f = planes_[plane].at(corners_[k]);
+        has_front |= f > slack_;
+        has_back |= f < -slack_;
+      }
+      cut += has_front && has_back;
+      front += has_front && !has_back;
+      back += has_back && !has_front;
+    }
+    const size_t cost = 8 * cut + std::min(front, back);
+    if (cost < least) least = cost, best = plane;
+    if (cost == 0) break;
+  }
+  return best;
+}
+
+/// Cuts a polygon by a plane, its corners on the plane going to both sides.
+void LocalBsp::split(const Polygon& polygon, uint32_t plane, Polygon& front, Polygon& back) {
+  const CellPlane& at = planes_[plane];
+  front = back = polygon;
+  const auto half = [&](Polygon& part, double sign) {
+    part.first = uint32_t(corners_.size());
+    for (uint32_t k = 0; k < polygon.count; ++k) {
+      const Vec3 p = corners_[polygon.first + k],
+                 q = corners_[polygon.first + (k + 1) % polygon.count];
+      const double at_p = sign * at.at(p), at_q = sign * at.at(q);
+      if (at_p >= 0) corners_.push_back(p);
+      if ((at_p < 0 && at_q > 0) || (at_p > 0 && at_q < 0))
+        corners_.push_back(p + (q - p) * (at_p / (at_p - at_q)));
+    }
+    part.count = uint32_t(corners_.size()) - part.first;
+  };
+  half(front, 1);
+  half(back, -1);
+}
+
+/// Sorts polygons to the sides of a plane, into front_ and back_, and finds a point of one that
+/// lies in the plane, as far from all others as can be.
+void LocalBsp::divide(std::span<const uint32_t> polygons, uint32_t plane, Node& node) {
+  front_.clear();
+  back_.clear();
+  double best = -1;
+  const double good_enough = 16 * slack_;
+  for (const uint32_t number : polygons) {
+    const Polygon polygon = polygons_[number];
+    if (polygon.plane == plane) {
+      for (const auto& weights : kWeights) {
+        if (best > good_enough) break;
+        Vec3 sum;
+        double all = 0;
+        for (uint32_t k = 0; k < polygon.count; ++k) {
+          const double weight = weights[k % 3] + 0.01 * k;
+          sum += corners_[polygon.first + k] * weight;
+          all += weight;
+        }
+        const Vec3 p = sum / all;
+        double nearest = kInfinity;
+        for (const uint32_t other : polygons)
+          if (const uint32_t its = polygons_[other].plane; its != plane)
+            nearest = std::min(nearest, std::fabs(planes_[its].at(p)));
+        // A point well inside of its polygon says more than one of a sliver.
+        double width = kInfinity;
+        for (uint32_t k = 0; k < polygon.count; ++k) {
+          const Vec3 a = corners_[polygon.first + k],
+                     b = corners_[polygon.first + (k + 1) % polygon.count];
+          const double l = length(b - a);
+          if (l > 0) width = std::min(width, length(cross(b - a, p - a)) / l);
+        }
+        const double worth = std::min(nearest, width);
+        if (worth > best) {
+          best = worth;
+          node.sample = p;
+          node.jump = polygon.outward;
+        }
+      }
+      continue;
+    }
+    double highest = 0, lowest = 0;
+    for (uint32_t k = polygon.first; k < polygon.first + polygon.count; ++k) {
+      const double f = planes_[plane].at(corners_[k]);
+      highest = std::max(highest, f);
+      lowest = std::min(lowest, f);
+    }
+    if (highest > slack_ && lowest < -slack_) {
+      Polygon front, back;
+      split(polygon, plane, front, back);
+      if (front.count >= 3) {
+        front_.push_back(uint32_t(polygons_.size()));
+        polygons_.push_back(front);
+      }
+      if (back.count >= 3) {
+        back_.push_back(uint32_t(polygons_.size()));
+        polygons_.push_back(back);
+      }
+    } else {
+      (highest >= -lowest ? front_ : back_).push_back(number);
+    }
+  }
+}
+
+void LocalBsp::build() {
+  struct Open {
+    uint32_t first, last;  ///< into lists_
+    uint32_t parent, side;
+  };
+  nodes_.clear();
+  windings_.clear();
+  lists_.clear();
+  for (uint32_t i = 0; i < polygons_.size(); ++i) lists_.push_back(i);
+  std::vector<Open> open{{0, uint32_t(lists_.size()), UINT32_MAX, 0}};
+  while (!open.empty()) {
+    const Open part = open.back();
+    open.pop_back();
+    uint32_t self = kPart + uint32_t(windings_.size());
+    if (part.first == part.last) {
+      windings_.push_back(0);
+    } else {
+      self = uint32_t(nodes_.size());
+      list_.assign(lists_.begin() + part.first, lists_.begin() + part.last);
+      lists_.resize(part.first);
+      Node node{choose(list_), {0, 0}, {}, 0};
+      divide(list_, node.plane, node);
+      nodes_.push_back(node);
+      const auto from = uint32_t(lists_.size());
+      lists_.insert(lists_.end(), front_.begin(), front_.end());
+      const auto middle = uint32_t(lists_.size());
+      lists_.insert(lists_.end(), back_.begin(), back_.end());
+      open.push_back({from, middle, self, 0});
+      open.push_back({middle, uint32_t(lists_.size()), self, 1});
+    }
+    if (part.parent != UINT32_MAX) nodes_[part.parent].child[part.side] = self;
+  }
+}
+
+/// The part that a point is in.
+uint32_t LocalBsp::part_at(uint32_t node, Vec3 q) const {
+  while ((node & kPart) == 0)
+    node = nodes_[node].child[planes_[nodes_[node].plane].at(q) <= 0 ? 1 : 0];
+  return node & ~kPart;
+}
+
+/// Every node tells by how much the winding numbers differ of two parts, one on either side of its
+/// sample: n parts are related by n - 1 nodes. One number is found by the whole boundary, and the
+/// rest follow.
+void LocalBsp::label(const Boundary& boundary, const CellBox& cell) {
+  struct Relation {
+    uint32_t front, back;
+    int jump;
+  };
+  std::vector<Relation> relations;
+  relations.reserve(nodes_.size());
+  for (const Node& node : nodes_)
+    relations.push_back(
+        {part_at(node.child[0], node.sample), part_at(node.child[1], node.sample), node.jump});
+
+  Vec3 probe;
+  double best = -1;
+  for (const Vec3& share : kProbes) {
+    const Vec3 q = times(share, cell.half);
+    double nearest = kInfinity;
+    for (const CellPlane& plane : planes_) nearest = std::min(nearest, std::fabs(plane.at(q)));
+    if (nearest > best) best = nearest, probe = q;
+  }
+  const uint32_t known = part_at(0, probe);
+
+  // Sets of parts whose differences are known: each part's to its set's first (union-find).
+  std::vector<uint32_t> set(windings_.size());
+  for (uint32_t i = 0; i < set.size(); ++i) set[i] = i;
+  const auto find = [&](uint32_t part) {
+    int sum = 0;
+    uint32_t root = part;
+    while (set[root] != root) sum += windings_[root], root = set[root];
+    while (set[part] != root) {
+      const uint32_t next = set[part];
+      const int own = windings_[part];
+      windings_[part] = sum;
+      set[part] = root;
+      sum -= own;
+      part = next;
+    }
+    return root;
+  };
+  for (const Relation& relation : relations) {
+    const uint32_t front = find(relation.front), back = find(relation.back);
+    if (front == back) continue;
+    const int of_front = relation.front == front ? 0 : windings_[relation.front];
+    const int of_back = relation.back == back ? 0 : windings_[relation.back];
+    // w(back part) = w(front part) + jump.
+    set[back] = front;
+    windings_[back] = of_front + relation.jump - of_back;
+  }
+  const uint32_t root = find(known);
+  const int there = boundary.winding(cell.center + probe) - (known == root ? 0 : windings_[known]);
+  std::vector<int> result(windings_.size());
+  for (uint32_t i = 0; i < set.size(); ++i) {
+    const uint32_t its = find(i);
+    result[i] = there + (its == i ? 0 : windings_[i]);
+  }
+  windings_ = std::move(result);
+}
+
+LocalBsp::Form LocalBsp::form_of_child(uint32_t child) const {
+  if ((child & kPart) == 0) return forms_[child];
+  return windings_[child & ~kPart] != 0 ? Form::kTrue : Form::kFalse;
+}
+
+LocalBsp::Form LocalBsp::form_of(const Node& node) const {
+  const Form front = form_of_child(node.child[0]), back = form_of_child(node.child[1]);
+  const bool front_is_known = front == Form::kFalse || front == Form::kTrue;
+  const bool back_is_known = back == Form::kFalse || back == Form::kTrue;
+  if (front_is_known && back_is_known) {
+    if (front == back) return front;
+    return back == Form::kTrue ? Form::kBehind : Form::kInFront;
+  }
+  if (front_is_known) return front == Form::kFalse ? Form::kAnd : Form::kOrNot;
+  if (back_is_known) return back == Form::kFalse ? Form::kAndNot : Form::kOr;
+  return Form::kBoth;
+}
+
+/// From the tree to tokens, from the top, every group in one of the other kind.
+void LocalBsp::write(bool negated) {
+  tokens_.clear();
+  operands_ = 0;
+  enum class What : uint8_t { kNode, kBackHalf, kFrontHalf, kBehind, kInFront, kClose };
+  struct Task {
+    What what;
+    TokenKind around;  ///< the group it stands in
+    uint32_t depth;    ///< of that group
+    uint32_t at;       ///< a node; kClose: a header
+  };
+  std::vector<Task> tasks;
+  const auto literal = [&](const Node& node, bool behind) {
+    const CellPlane& plane = planes_[node.plane];
+    const bool is_complement = scene_.faces[plane.face].literal & 1;
+    // The face says: behind the plane, or if it is the complement, in front of it.
+    tokens_.push_back(
+        Token::make(TokenKind::kFace, plane.face, (behind == is_complement) != negated));
+  };
+  // Opens a group, unless it stands in one of its own kind, and puts its two operands in it.
+  const auto group = [&](const Task& task, TokenKind kind, Task first, Task second) {
+    if (negated) kind = kind == TokenKind::kAnd ? TokenKind::kOr : TokenKind::kAnd;
+    const bool joins = task.depth > 0 && task.around == kind;
+    const uint32_t depth = joins ? task.depth : task.depth + 1;
+    if (!joins) {
+      if (task.depth == 1) ++operands_;
+      tasks.push_back({What::kClose, kind, depth, uint32_t(tokens_.size())});
+      tokens_.push_back(Token::make(kind, 0));
+    }
+    first.around = second.around = kind;
+    first.depth = second.depth = depth;
+    tasks.push_back(second);
+    tasks.push_back(first);
+  };
+  tasks.push_back({What::kNode, TokenKind::kAnd, 0, 0});
+  while (!tasks.empty()) {
+    const Task task = tasks.back();
+    tasks.pop_back();
+    if (task.what == What::kClose) {
+      tokens_[task.at] = Token::make(task.around, uint32_t(tokens_.size()) - task.at);
+      continue;
+    }
+    const Node& node = nodes_[task.at];
+    const auto of = [&](What what) { return Task{what, {}, 0, task.at}; };
+    const auto child = [&](int side) { return Task{What::kNode, {}, 0, node.child[side]}; };
+    const auto alone = [&](bool behind) {
+      if (task.depth == 1) ++operands_;
+      literal(node, behind);
+    };
+    switch (task.what) {
+      case What::kBehind:
+        alone(true);
+        break;
+      case What::kInFront:
+        alone(false);
+        break;
+      case What::kBackHalf:
+        group(task, TokenKind::kAnd, of(What::kBehind), child(1));
+        break;
+      case What::kFrontHalf:
+        group(task, TokenKind::kAnd, of(What::kInFront), child(0));
+        break;
+      default:
+        switch (forms_[task.at]) {
+          case Form::kFalse:
+          case Form::kTrue: {
+            // Only the root: within, constants have gone.
+            const bool value = (forms_[task.at] == Form::kTrue) != negated;
+            tokens_.push_back(Token::make(value ? TokenKind::kAnd : TokenKind::kOr, 1));
+            break;
+          }
+          case Form::kBehind:
+            alone(true);
+            break;
+          case Form::kInFront:
+            alone(false);
+            break;
+          case Form::kAnd:
+            group(task, TokenKind::kAnd, of(What::kBehind), child(1));
+            break;
+          case Form::kAndNot:
+            group(task, TokenKind::kAnd, of(What::kInFront), child(0));
+            break;
+          case Form::kOr:
+            group(task, TokenKind::kOr, of(What::kBehind), child(0));
+            break;
+          case Form::kOrNot:
+            group(task, TokenKind::kOr, of(What::kInFront), child(1));
+            break;
+          case Form::kBoth:
+            group(task, TokenKind::kOr, of(What::kBackHalf), of(What::kFrontHalf));
+            break;
+        }
+    }
+  }
+}
+
+std::span<const Token> LocalBsp::formula(const Unit& unit, const CellBox& cell, bool negated) {
+  const Boundary& boundary = scene_.boundaries[unit.boundary];
+  slack_ = boundary.slack();
+  collect(boundary, cell, cell.half + Vec3{slack_, slack_, slack_});
+  if (polygons_.empty()) {
+    const bool value = is_inside(unit, cell) != negated;
+    tokens_.assign(1, Token::make(value ? TokenKind::kAnd : TokenKind::kOr, 1));
+    operands_ = 0;
+    return tokens_;
+  }
+  build();
+  label(boundary, cell);
+  forms_.resize(nodes_.size());
+  // Children stand behind their parents.
+  for (size_t i = nodes_.size(); i-- > 0;) forms_[i] = form_of(nodes_[i]);
+  write(negated);
+  return tokens_;
+}
+
+}  // namespace whittle
