@@ -11,6 +11,9 @@ find_package(OpenEXR REQUIRED)         # libopenexr-dev: facts as pictures
 # costs nothing when the program starts.
 find_path(QHULL_INCLUDE libqhull_r/libqhull_r.h REQUIRED)
 find_library(QHULL_LIBRARY libqhullstatic_r.a REQUIRED)
+find_package(PkgConfig REQUIRED)       # pkgconf: finds what ships no CMake package:
+# libpolyclipping-dev: Booleans and offsets of flat shapes, the ones that OpenSCAD uses
+pkg_check_modules(polyclipping REQUIRED IMPORTED_TARGET polyclipping)
 if(WHITTLE_VULKAN)
   # libvulkan-dev: headers; glslc: compiles the shaders; libvulkan-volk-dev: finds the loader when the
   # program runs.

@@ -14,6 +14,8 @@ build_packages=(
   libpng-dev          # pictures
   libopenexr-dev      # facts as pictures
   libqhull-dev        # convex hulls
+  pkgconf             # finds what ships no CMake package
+  libpolyclipping-dev # Booleans and offsets of flat shapes, the ones that OpenSCAD uses
   libvulkan-dev       # the Vulkan backend: headers,
   libvulkan-volk-dev  # the way to its functions when the program runs,
   libvulkan1          # and what that finds there
