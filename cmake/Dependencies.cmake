@@ -7,6 +7,10 @@ find_package(fmt REQUIRED)             # libfmt-dev: text
 find_package(nlohmann_json REQUIRED)   # nlohmann-json3-dev: machine-readable output
 find_package(PNG REQUIRED)             # libpng-dev: pictures
 find_package(OpenEXR REQUIRED)         # libopenexr-dev: facts as pictures
+# libqhull-dev: convex hulls. Its own CMake package wants Qhull's programs too. Linked whole, so that it
+# costs nothing when the program starts.
+find_path(QHULL_INCLUDE libqhull_r/libqhull_r.h REQUIRED)
+find_library(QHULL_LIBRARY libqhullstatic_r.a REQUIRED)
 find_package(PkgConfig REQUIRED)       # pkgconf: finds what ships no CMake package:
 # libpolyclipping-dev: Booleans and offsets of flat shapes, the ones that OpenSCAD uses
 pkg_check_modules(polyclipping REQUIRED IMPORTED_TARGET polyclipping)

@@ -13,6 +13,7 @@ build_packages=(
   nlohmann-json3-dev  # machine-readable output
   libpng-dev          # pictures
   libopenexr-dev      # facts as pictures
+  libqhull-dev        # convex hulls
   pkgconf             # finds what ships no CMake package
   libpolyclipping-dev # Booleans and offsets of flat shapes, the ones that OpenSCAD uses
   libvulkan-dev       # the Vulkan backend: headers,

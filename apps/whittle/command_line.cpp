@@ -11,6 +11,7 @@
 #include "option_group.h"
 #include "progress.h"
 #include "statistics.h"
+#include "whittle/reading.h"
 
 namespace whittle {
 void add_loading_options(CLI::App& app, Loading& loading) {
@@ -23,6 +24,8 @@ void add_loading_options(CLI::App& app, Loading& loading) {
                    [&](bool polish) { loading.polish = polish; });
   group.add_flag("--strict", loading.strict, "fail if anything in FILE is not supported");
   group.add_flag("-q,--quiet", loading.quiet, "say nothing but errors");
+  group.add_text("--import-root", "DIR", "read files that FILE names only from this folder tree",
+                 [&](const std::string& folder) { loading.import_root = folder; });
   add_limit_option(app, loading.limits);
 }
 
@@ -33,7 +36,12 @@ void suit_style(Style style, Loading& loading) {
 }
 
 ReadOptions read_options(const Loading& loading) {
-  return {.curves = loading.curves, .polish = loading.polish, .limits = loading.limits};
+  return {.curves = loading.curves,
+          .polish = loading.polish,
+          .limits = loading.limits,
+          .folder = std::nullopt,
+          .import_root = loading.import_root,
+          .solid_box = tight_box};
 }
 
 Status say_warnings(const Read& read, const Loading& loading) {

@@ -18,6 +18,7 @@ struct Loading {
   Curves curves = Curves::kAuto;
   bool polish = true;
   ReadLimits limits;
+  std::optional<std::string> import_root;
   bool strict = false;
   bool quiet = false;
 };

@@ -1,4 +1,4 @@
-// What the statements of .csg mean: from a name and its arguments to shapes, maps and colours.
+// The statements of .csg: their names, and their arguments sorted by parameter.
 //
 // The facts (names, orders, defaults, what wins over what, what a wrong type gives) are OpenSCAD's,
 // found by running it; where they are odd, a test states them.
@@ -10,11 +10,9 @@
 #include <string>
 #include <string_view>
 
-#include "base/affine.h"
 #include "io/csg_values.h"
-#include "io/warnings.h"
+#include "model/warnings.h"
 #include "model/facets.h"
-#include "model/model.h"
 
 namespace whittle {
 
@@ -33,32 +31,51 @@ enum class Meaning : uint8_t {
   kCylinder,
   kPolyhedron,
   kHalfspace,
-  kUnsupportedGroup,  ///< not supported; it has children, and their union stands for it
-  kUnsupportedLeaf,   ///< not supported, and without children: nothing stands for it
-  kLanguage,          ///< part of OpenSCAD's language that only OpenSCAD can evaluate
+  kSquare,
+  kCircle,
+  kPolygon,
+  kText,
+  kImport,
+  kSurface,
+  kLinearExtrude,
+  kRotateExtrude,
+  kOffset,
+  kResize,
+  kProjection,
+  kHull,
+  kMinkowski,
+  kFill,
+  kRoof,
+  kUnknown,   ///< no statement of OpenSCAD's; the union of its children stands for it
+  kLanguage,  ///< part of OpenSCAD's language that only OpenSCAD can evaluate
 };
 
 /// A statement and its parameters.
 struct StatementType {
-  static constexpr size_t kMostParameters = 8;
+  static constexpr size_t kMostParameters = 12;
 
   std::string_view name;
-  Meaning meaning = Meaning::kUnsupportedGroup;
+  Meaning meaning = Meaning::kUnknown;
   uint8_t positional = 0;        ///< so many of the parameters may be given without their names
   bool checks_arguments = true;  ///< false: any argument may be meant, none is looked at
   bool passes_fragments = true;  ///< $fn, $fa, $fs among the arguments hold for the children too
   std::array<std::string_view, kMostParameters> parameters{};
 };
 
-/// The type of a statement; for a name that is not known, a kUnsupportedGroup without a name.
+/// The type of a statement; for a name that is not known, a kUnknown without a name.
 const StatementType& find_statement(std::string_view name);
 
 inline bool is_primitive(Meaning meaning) {
   return meaning >= Meaning::kCube && meaning <= Meaning::kHalfspace;
 }
+/// True if the statement stands for a shape, so that it has an id: primitives, the leaves of a
+/// document, and its operations.
+inline bool has_id(Meaning meaning) {
+  return meaning >= Meaning::kCube && meaning <= Meaning::kRoof;
+}
 /// True if OpenSCAD does not look at the children of such a statement.
-inline bool is_leaf(Meaning meaning) {
-  return is_primitive(meaning) || meaning == Meaning::kUnsupportedLeaf;
+inline bool is_childless(Meaning meaning) {
+  return meaning >= Meaning::kCube && meaning <= Meaning::kSurface;
 }
 
 /// $fn, $fa, $fs as far as they are given; what is not given is inherited.
@@ -87,26 +104,5 @@ struct Statement {
 /// parameter. The result refers to `arguments`.
 Statement bind_arguments(const StatementType& type, SourceLocation where,
                          const CsgArguments& arguments, Warnings& warnings);
-
-// The meanings, each for a statement of that kind. Arguments of a wrong type leave the default and
-// give a warning. Facets are not yet chosen.
-
-Cube make_cube(const Statement& statement, Warnings& warnings);
-Sphere make_sphere(const Statement& statement, Warnings& warnings);
-Cylinder make_cylinder(const Statement& statement, Warnings& warnings);
-Halfspace make_halfspace(const Statement& statement, Warnings& warnings);
-
-/// Points and faces, without planes. Faces of fewer than three corners are left out. A point or a
-/// face that is none sets `mistake`, in words, and the result is then of no use.
-Polyhedron make_polyhedron(const Statement& statement, std::string& mistake);
-
-/// kMultmatrix, kTranslate, kRotate, kScale or kMirror.
-Affine make_transform(const Statement& statement, Warnings& warnings);
-
-/// Components above 1 are 1, negative ones are unset (-1).
-Rgba make_color(const Statement& statement, Warnings& warnings);
-
-/// A vector of exactly three numbers.
-std::optional<Vec3> as_vec3(const Value& value);
 
 }  // namespace whittle

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/csg_lexer.h"
-#include "io/warnings.h"
+#include "model/warnings.h"
 
 namespace whittle {
 

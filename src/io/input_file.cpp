@@ -13,9 +13,9 @@
 namespace whittle {
 namespace {
 
-/// All that is left to read, up to a little more than `most_bytes`; the error number, or 0, in
-/// `error`.
-std::string read_all(int descriptor, size_t most_bytes, int& error) {
+/// All that is left to read, up to a little more than `most_bytes`, and of what is to be text up to
+/// where it is none; the error number, or 0, in `error`.
+std::string read_all(int descriptor, size_t most_bytes, bool only_text, int& error) {
   std::string text;
   struct stat status {};
   // One byte more than the file has, so that its end shows without growing the buffer.
@@ -31,9 +31,9 @@ std::string read_all(int descriptor, size_t most_bytes, int& error) {
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) error = errno;
     if (got <= 0) break;
-    const bool is_text = std::memchr(text.data() + size, 0, static_cast<size_t>(got)) == nullptr;
+    const bool has_zero = std::memchr(text.data() + size, 0, static_cast<size_t>(got)) != nullptr;
     size += static_cast<size_t>(got);
-    if (!is_text) break;
+    if (only_text && has_zero) break;
   }
   text.resize(size);
   return text;
@@ -47,7 +47,7 @@ Result<std::string> read_text(const std::string& path, size_t most_bytes) {
   int error = errno;
   std::string text;
   if (descriptor >= 0) {
-    text = read_all(descriptor, most_bytes, error);
+    text = read_all(descriptor, most_bytes, true, error);
     if (!is_standard) ::close(descriptor);
   }
   const auto refuse = [&](const std::string& why) {
@@ -60,6 +60,28 @@ Result<std::string> read_text(const std::string& path, size_t most_bytes) {
         fmt::format("larger than the limit of {} bytes; --limit bytes=N raises it", most_bytes));
   }
   return text;
+}
+
+Result<std::string> read_bytes(const std::string& path, size_t most_bytes) {
+  const auto refuse = [](const std::string& why) {
+    return Error{ErrorKind::kInput, "cannot be read: " + why};
+  };
+  // A pipe is opened without waiting for its writer.
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) return refuse(std::generic_category().message(errno));
+  struct stat status {};
+  const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+  int error = 0;
+  std::string bytes;
+  if (is_file) bytes = read_all(descriptor, most_bytes, false, error);
+  ::close(descriptor);
+  if (!is_file) return refuse("it is not a file");
+  if (error != 0) return refuse(std::generic_category().message(error));
+  if (bytes.size() > most_bytes) {
+    return refuse(fmt::format("with it more than the limit of bytes are read; --limit bytes=N "
+                              "raises it"));
+  }
+  return bytes;
 }
 
 }  // namespace whittle

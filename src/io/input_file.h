@@ -1,4 +1,4 @@
-// A whole file as text.
+// A whole file as text, or as bytes.
 #pragma once
 
 #include <cstddef>
@@ -15,5 +15,9 @@ inline constexpr size_t kMostTextBytes = (size_t{1} << 32) - 1;
 /// there: devices never do. Errors: kInput, with the system's reason, or that it has more bytes
 /// than `most_bytes` (at most kMostTextBytes).
 Result<std::string> read_text(const std::string& path, size_t most_bytes = kMostTextBytes);
+
+/// The bytes of a file, whatever they are; of no device, pipe or folder. Errors: kInput, why it
+/// cannot be read, without its name.
+Result<std::string> read_bytes(const std::string& path, size_t most_bytes);
 
 }  // namespace whittle

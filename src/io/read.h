@@ -6,14 +6,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/box.h"
 #include "base/result.h"
 #include "model/facets.h"
 #include "model/model.h"
+#include "model/warnings.h"
 
 namespace whittle {
 
@@ -24,28 +27,31 @@ struct ReadLimits {
   size_t depth = 1'000'000;    ///< statements inside statements
   size_t nodes = 20'000'000;   ///< statements, those dropped by `*` not counted
   size_t values = 10'000'000;  ///< in one statement: numbers, strings, vectors, and names for them
-  size_t facets = 2'100'000;   ///< flat faces of all spheres, cylinders and polyhedra together
+  size_t facets = 2'100'000;   ///< flat faces of all shapes together
 };
 
 struct ReadOptions {
   Curves curves = Curves::kAuto;
   bool polish = true;  ///< rotations in `multmatrix` get back what printing took (polish.h)
   ReadLimits limits{};
-};
-
-/// Something in a file that whittle does not understand (yet).
-struct Unsupported {
-  SourceLocation where;
-  std::string message;  ///< as in "'hull' is not supported yet"
+  /// What the names of files in the text are relative to; "" is the current folder. Without it the
+  /// text can name no files. read_file() takes that of the file.
+  std::optional<std::string> folder{};
+  /// With it only files in this folder tree are read for the text, all links resolved.
+  std::optional<std::string> import_root{};
+  /// The exact box of a solid (subdivide/solid_bounds.h), for resize(); without it bounds() stand
+  /// for it.
+  std::function<Box(const Model&)> solid_box{};
 };
 
 /// What was read.
 struct Read {
   Model model;
-  /// Full messages, `file:line:column: warning: ...`, in the order of the file; what transforms
-  /// make empty (transform_warnings) is among them. Many of one kind are summed up in one line.
+  /// Full messages, `file:line:column: warning: ...`: of what is written in the order of the file,
+  /// then likewise of what has become of it. Many of one kind are summed up in one line.
   std::vector<std::string> warnings;
-  /// The first thing that was not understood, if any: then the model may not be what was meant.
+  /// The first thing that was left out or replaced, if any: then the model may not be what was
+  /// meant. What stands under `%` does not count.
   std::optional<Unsupported> unsupported;
 };
 

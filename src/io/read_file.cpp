@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,7 +35,9 @@ Result<Read> read_scad(const std::string& path, const ReadOptions& options) {
 
 }  // namespace
 
-Result<Read> read_file(const std::string& path, const ReadOptions& options) {
+Result<Read> read_file(const std::string& path, const ReadOptions& given) {
+  ReadOptions options = given;
+  if (!options.folder) options.folder = std::filesystem::path(path).parent_path().string();
   if (path.ends_with(".scad")) return read_scad(path, options);
   const Result<std::string> text = read_text(path, std::min(options.limits.bytes, kMostTextBytes));
   if (!text) return text.error();

@@ -24,32 +24,44 @@ void remove_marked(Model& model) {
   nodes.resize(kept);
 }
 
-void keep_subtree(Model& model, uint32_t root) {
-  Model kept;
+void keep_subtree(Document& document, uint32_t root) {
+  Model& model = document.model;
+  Document kept;
   const uint32_t end = model.nodes[root].end;
-  kept.nodes.reserve(end - root + 1);
-  kept.nodes.push_back(model.nodes[0]);
-  const auto move_entry = [](auto& from, auto& to, uint32_t& index) {
+  kept.model.nodes.reserve(end - root + 1);
+  kept.model.nodes.push_back(model.nodes[0]);
+  const auto move_entry = [](auto& from, auto& to, uint32_t index) {
     to.push_back(std::move(from[index]));
-    index = static_cast<uint32_t>(to.size() - 1);
+    return static_cast<uint32_t>(to.size() - 1);
   };
   for (uint32_t i = root; i < end; ++i) {
     Node node = model.nodes[i];
     if (node.end != kRemoved) node.end = node.end - root + 1;
+    const uint32_t payload = node.payload;
     if (node.kind == NodeKind::kTransform) {
-      move_entry(model.transforms, kept.transforms, node.payload);
+      node.payload = move_entry(model.transforms, kept.model.transforms, payload);
     } else if (node.kind == NodeKind::kColor) {
-      move_entry(model.colors, kept.colors, node.payload);
+      node.payload = move_entry(model.colors, kept.model.colors, payload);
     } else if (node.kind == NodeKind::kPrimitive) {
-      move_entry(model.primitives, kept.primitives, node.payload);
+      node.payload = move_entry(model.primitives, kept.model.primitives, payload);
+    } else if (node.kind == NodeKind::kLeaf) {
+      move_entry(document.leaf_ids, kept.leaf_ids, payload);
+      node.payload = move_entry(document.leaves, kept.leaves, payload);
+    } else if (node.kind == NodeKind::kOperation) {
+      move_entry(document.operation_ids, kept.operation_ids, payload);
+      node.payload = move_entry(document.operations, kept.operations, payload);
     }
-    kept.nodes.push_back(node);
+    kept.model.nodes.push_back(node);
   }
-  kept.nodes[0].end = static_cast<uint32_t>(kept.nodes.size());
-  model.nodes = std::move(kept.nodes);
-  model.transforms = std::move(kept.transforms);
-  model.colors = std::move(kept.colors);
-  model.primitives = std::move(kept.primitives);
+  kept.model.nodes[0].end = static_cast<uint32_t>(kept.model.nodes.size());
+  model.nodes = std::move(kept.model.nodes);
+  model.transforms = std::move(kept.model.transforms);
+  model.colors = std::move(kept.model.colors);
+  model.primitives = std::move(kept.model.primitives);
+  document.leaves = std::move(kept.leaves);
+  document.operations = std::move(kept.operations);
+  document.leaf_ids = std::move(kept.leaf_ids);
+  document.operation_ids = std::move(kept.operation_ids);
 }
 
 }  // namespace whittle

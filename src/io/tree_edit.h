@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "model/model.h"
+#include "model/document.h"
 
 namespace whittle {
 
@@ -14,8 +14,8 @@ inline constexpr uint32_t kRemoved = 0;
 /// their place. nodes[0] must stay.
 void remove_marked(Model& model);
 
-/// Reduces the model to the subtree at `root`, which becomes the only child of nodes[0], and to the
-/// primitives, transforms and colours in it. Nodes may be marked as removed, but not `root`.
-void keep_subtree(Model& model, uint32_t root);
+/// Reduces the document to the subtree at `root`, which becomes the only child of nodes[0], and to
+/// what the nodes in it name: primitives, leaves, transforms and so on. Nodes may be marked as removed, but not `root`.
+void keep_subtree(Document& document, uint32_t root);
 
 }  // namespace whittle

@@ -160,10 +160,13 @@ std::vector<Appearance> appearances(const Model& model) {
     if (node.kind == NodeKind::kColor && !here.color.is_valid() &&
         model.colors[node.payload].is_valid())
       here.color = model.colors[node.payload];
-    if (node.kind == NodeKind::kPrimitive) {
-      const uint32_t id = model.primitives[node.payload].id;
+    if (node.kind == NodeKind::kPrimitive || node.kind == NodeKind::kBody) {
+      const bool is_body = node.kind == NodeKind::kBody;
+      const uint32_t id = is_body ? node.payload : model.primitives[node.payload].id;
       if (id >= result.size()) result.resize(id + 1);
       result[id] = here;
+      // What a body is made of changes nothing about its look.
+      if (is_body) i = node.end - 1;
     } else {
       scopes.push_back({node.end, node.kind == NodeKind::kDifference, false, here});
     }
@@ -200,6 +203,15 @@ std::optional<uint32_t> lone_primitive(const Model& model) {
     const Node& node = model.nodes[i];
     close_before(i);
     if (node.background) {
+      i = node.end;
+      continue;
+    }
+    if (node.kind == NodeKind::kBody) {
+      bool empty = true;
+      for (uint32_t k = i + 1; k < node.end; ++k) {
+        if (model.nodes[k].kind == NodeKind::kPrimitive) empty &= walk.next()->empty;
+      }
+      give(empty ? 0 : node.payload, false);
       i = node.end;
       continue;
     }

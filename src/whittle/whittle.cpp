@@ -11,6 +11,7 @@
 #include "model/instances.h"
 #include "whittle/choices.h"
 #include "whittle/output.h"
+#include "whittle/reading.h"
 #include "whittle/renderer.h"
 
 namespace whittle {
@@ -47,7 +48,10 @@ ReadOptions reading_of(const LoadOptions& o) {
                      .depth = o.most_depth,
                      .nodes = o.most_nodes,
                      .values = o.most_values,
-                     .facets = o.most_facets}};
+                     .facets = o.most_facets},
+          .folder = std::nullopt,
+          .import_root = std::nullopt,
+          .solid_box = tight_box};
 }
 
 ViewOptions view_of(const RenderOptions& o) {

@@ -1,4 +1,4 @@
-#include "io/warnings.h"
+#include "model/warnings.h"
 
 #include <fmt/format.h>
 
@@ -30,6 +30,14 @@ void Warnings::add(std::string_view kind, SourceLocation where, std::string_view
 
 void Warnings::add_full(std::string_view kind, std::string message) {
   if (count(kind)) messages_.push_back(std::move(message));
+}
+
+void Warnings::add_unsupported(std::string_view kind, SourceLocation where,
+                               std::string_view message, std::string what) {
+  add(kind, where, message);
+  if (!unsupported_ || where < unsupported_->where) {
+    unsupported_ = Unsupported{where, std::move(what)};
+  }
 }
 
 std::vector<std::string> Warnings::take() {

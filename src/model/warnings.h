@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,12 @@
 #include "model/model.h"
 
 namespace whittle {
+
+/// Something in a file that whittle does not understand (yet).
+struct Unsupported {
+  SourceLocation where;
+  std::string message;  ///< as in "'roof' is not supported yet"
+};
 
 /// Collects warnings. Of each kind the first kShown are kept word by word, the others are counted.
 class Warnings {
@@ -25,6 +32,13 @@ class Warnings {
   /// Adds a message that is complete already.
   void add_full(std::string_view kind, std::string message);
 
+  /// Adds a warning of what is left out or replaced: then the model may not be what was meant.
+  void add_unsupported(std::string_view kind, SourceLocation where, std::string_view message,
+                       std::string what);
+
+  /// The first in the file of what was added so, if any.
+  const std::optional<Unsupported>& unsupported() const { return unsupported_; }
+
   /// All messages, then a line for each kind of which some were only counted.
   std::vector<std::string> take();
 
@@ -35,6 +49,7 @@ class Warnings {
   std::string file_;
   std::vector<std::string> messages_;
   std::map<std::string, size_t, std::less<>> counts_;
+  std::optional<Unsupported> unsupported_;
 };
 
 }  // namespace whittle

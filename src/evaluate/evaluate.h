@@ -1,0 +1,38 @@
+// From what a text says to solids: flat shapes, extrusions, hulls and files become primitives.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+#include "base/box.h"
+#include "base/result.h"
+#include "model/document.h"
+#include "model/facets.h"
+#include "model/model.h"
+#include "model/warnings.h"
+
+namespace whittle {
+
+struct EvaluateOptions {
+  Curves curves = Curves::kAuto;
+  /// Of all flat faces together, and of corners that are computed with: more are an error. It names
+  /// the limit as the command line does.
+  size_t most_facets = 2'100'000;
+  /// The content of a file that the document names, as it names it. Errors say why there is none,
+  /// without a place. Without this function there are no files.
+  std::function<Result<std::string>(const std::string& file)> read_file;
+  /// The exact box of a solid, for resize(); without it the bounds of its tree stand for it.
+  std::function<Box(const Model&)> solid_box;
+};
+
+/// The solid that a document describes, as a model without leaves and operations. Every extrusion,
+/// hull and so on becomes one body: a primitive, or a kBody that holds its parts, with the id of
+/// its statement. Flat shapes that stand alone at the top are slabs, z in [-0.5, 0.5]. What cannot
+/// be done is left out or replaced, with a warning of what happened.
+///
+/// Errors: kInput, `file:line:column: error: ...`, for what passes the limit. Depth costs memory,
+/// never stack. A document that holds neither leaves nor operations passes through.
+Result<Model> evaluate(Document document, const EvaluateOptions& options, Warnings& warnings);
+
+}  // namespace whittle
