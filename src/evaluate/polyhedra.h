@@ -9,7 +9,7 @@
 
 namespace whittle {
 
-/// Significant digits of what a file's numbers are printed with.
+/// Digits of a number in a text.
 inline constexpr int kPrintedDigits = 6;
 
 /// The facets of a facetted sphere or cylinder, of a polyhedron or a mesh.
