@@ -15,6 +15,8 @@ find_library(QHULL_LIBRARY libqhullstatic_r.a REQUIRED)
 find_package(PkgConfig REQUIRED)       # pkgconf: finds what ships no CMake package:
 # libpolyclipping-dev: Booleans and offsets of flat shapes, the ones that OpenSCAD uses
 pkg_check_modules(polyclipping REQUIRED IMPORTED_TARGET polyclipping)
+# libfreetype-dev, libharfbuzz-dev, libfontconfig-dev: text; opened when the first one is met
+pkg_check_modules(fonts REQUIRED freetype2 harfbuzz fontconfig)
 if(WHITTLE_VULKAN)
   # libvulkan-dev: headers; glslc: compiles the shaders; libvulkan-volk-dev: finds the loader when the
   # program runs.

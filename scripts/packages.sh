@@ -17,6 +17,10 @@ build_packages=(
   libqhull-dev        # convex hulls
   pkgconf             # finds what ships no CMake package
   libpolyclipping-dev # Booleans and offsets of flat shapes, the ones that OpenSCAD uses
+  libfreetype-dev     # text: outlines of glyphs,
+  libharfbuzz-dev     # where they stand,
+  libfontconfig-dev   # and which fonts there are
+  fonts-liberation    # OpenSCAD's default font
   libvulkan-dev       # the Vulkan backend: headers,
   libvulkan-volk-dev  # the way to its functions when the program runs,
   libvulkan1          # and what that finds there

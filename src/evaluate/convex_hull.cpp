@@ -64,9 +64,8 @@ class Hull {
     // Qhull writes what it cannot do to a file.
     const std::unique_ptr<std::FILE, CloseFile> nowhere(std::fopen("/dev/null", "w"));
     char options[] = "qhull Pp";
-    if (!nowhere ||
-        qh_new_qhull(&qh_, 3, int(coordinates.size() / 3), coordinates.data(), False, options,
-                     nullptr, nowhere.get()) != 0) {
+    if (!nowhere || qh_new_qhull(&qh_, 3, int(coordinates.size() / 3), coordinates.data(), False,
+                                 options, nullptr, nowhere.get()) != 0) {
       return {};
     }
     std::vector<std::vector<uint32_t>> faces;

@@ -29,7 +29,6 @@ std::vector<CornerSet> extruded_corners(const Polygons& polygons, const LinearEx
 
 /// The Minkowski sum of all operands, as convex parts; an operand without parts does not count.
 /// None if a part is not convex, or a sum is flat.
-std::optional<std::vector<Polyhedron>> minkowski_parts(std::vector<CornerSet> sets,
-                                                       Budget& budget);
+std::optional<std::vector<Polyhedron>> minkowski_parts(std::vector<CornerSet> sets, Budget& budget);
 
 }  // namespace whittle

@@ -78,8 +78,7 @@ bool Evaluator::admit_dimension(uint32_t i) {
     const bool is_flat = inside == Dimension::kFlat;
     const bool is_operation = node_of(parent).kind == NodeKind::kOperation;
     warn_once(parent.node,
-              is_operation && is_flat
-                  ? "only flat shapes can be in here; what is solid is left out"
+              is_operation && is_flat ? "only flat shapes can be in here; what is solid is left out"
               : is_flat ? "flat shapes and solids do not mix: the first one is flat, so solids are "
                           "left out"
                         : "flat shapes and solids do not mix: the first one is solid, so flat "

@@ -37,17 +37,17 @@ class Evaluator {
   /// A node whose children are being evaluated.
   struct Frame {
     uint32_t node = 0;
-    Mode mode = Mode::kSolid;    ///< what the children become
-    bool separate = false;       ///< polygons, corners: each child is an operand of its own
-    bool only_first = false;     ///< only the first operand counts
-    bool wants_convex = false;   ///< corners: of parts that are convex
-    bool warned = false;         ///< that a child's dimension is another
-    uint32_t operands = 0;       ///< children so far
-    uint32_t out = kNone;        ///< its node in the model
-    uint32_t body = 0;           ///< embedded: the id of all parts; 0: each its own
-    size_t first_polygons = 0;   ///< where its own begin on the stack
-    size_t first_corners = 0;    ///< likewise
-    double height = 1;           ///< embedded: of the extrusion, from z = 0
+    Mode mode = Mode::kSolid;   ///< what the children become
+    bool separate = false;      ///< polygons, corners: each child is an operand of its own
+    bool only_first = false;    ///< only the first operand counts
+    bool wants_convex = false;  ///< corners: of parts that are convex
+    bool warned = false;        ///< that a child's dimension is another
+    uint32_t operands = 0;      ///< children so far
+    uint32_t out = kNone;       ///< its node in the model
+    uint32_t body = 0;          ///< embedded: the id of all parts; 0: each its own
+    size_t first_polygons = 0;  ///< where its own begin on the stack
+    size_t first_corners = 0;   ///< likewise
+    double height = 1;          ///< embedded: of the extrusion, from z = 0
     Affine map;  ///< polygons, corners: into the space of the operation that takes them
   };
 

@@ -83,8 +83,7 @@ std::shared_ptr<const TriangleMesh> Files::read_solid(const Leaf& leaf, SourceLo
     flat_.erase(file);
     return refuse("the format is not known by this name");
   }
-  Result<RawMesh> raw =
-      map ? read_height_map(*bytes, *map, most) : read_mesh(*bytes, file, most);
+  Result<RawMesh> raw = map ? read_height_map(*bytes, *map, most) : read_mesh(*bytes, file, most);
   flat_.erase(file);
   if (!raw) return refuse(raw.error().message);
   ClosedMesh closed = close_mesh(*raw, map ? 0 : kPrintedDigits);

@@ -5,7 +5,9 @@
 #include <numbers>
 #include <utility>
 
-#include "flat/outlines.h"
+#include <fmt/format.h>
+
+#include "base/printable.h"
 #include "model/facets.h"
 
 namespace whittle {
@@ -143,9 +145,20 @@ Polygons FlatLeaves::polygons(const Leaf& leaf, SourceLocation where) {
   if (!text || !is_size(text->size) || !std::isfinite(text->spacing)) return {};
   // About the corners of a letter at OpenSCAD's finest.
   if (!budget_.work(200 * text->text.size())) return {};
-  return text_outline(*text, [&](const std::string& kind, const std::string& message) {
-    warnings_.add(kind, where, message);
-  });
+  return this->text(*text, where);
+}
+
+Polygons FlatLeaves::text(const Text& text, SourceLocation where) {
+  const TextOutline outline = outline_text(text, fonts_);
+  if (outline.no_fonts) {
+    const std::string kind = "no font is found; text is left out";
+    warnings_.add_unsupported(kind, where, kind, kind);
+  }
+  if (outline.replacement)
+    warnings_.add("a font is not there", where,
+                  fmt::format("the font {} is not there; {} stands for it", printable(text.font),
+                              printable(*outline.replacement)));
+  return text_polygons(outline);
 }
 
 Polygons offset_of(const Polygons& polygons, const Offset& how, Curves curves, Budget& budget) {

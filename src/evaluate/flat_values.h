@@ -9,6 +9,7 @@
 #include "evaluate/budget.h"
 #include "evaluate/files.h"
 #include "flat/polygons.h"
+#include "flat/text.h"
 #include "model/document.h"
 #include "model/warnings.h"
 
@@ -23,8 +24,8 @@ Polygons transformed(const Affine& map, Polygons polygons);
 uint64_t corner_count(const Polygons& polygons);
 uint64_t corner_count(std::span<const Polygons> polygons);
 
-/// The outline, if it is convex, strictly but for collinear corners: one contour, counter-clockwise,
-/// without equal neighbours.
+/// The outline, if it is convex, strictly but for collinear corners: one contour,
+/// counter-clockwise, without equal neighbours.
 std::optional<Contour> convex_outline(const Polygons& polygons);
 
 /// How many fragments OpenSCAD gives a curve of this radius; as it does in the version that is
@@ -43,11 +44,13 @@ class FlatLeaves {
   Polygons operator()(const Square& square) const;
   Polygons operator()(const Circle& circle) const;
   Polygons operator()(const Polygon& polygon) const;
+  Polygons text(const Text& text, SourceLocation where);
 
   Curves curves_;
   Budget& budget_;
   Files& files_;
   Warnings& warnings_;
+  FontLibrary fonts_;
 };
 
 /// offset() of polygons. Spends the budget first.

@@ -123,8 +123,7 @@ void Evaluator::close_linear_extrude(const Frame& frame, const LinearExtrude& ho
     give(frame, sliced_extrusion(polygons, how, budget_));
     return;
   }
-  for (CornerSet& set :
-       extruded_corners(polygons, how, open_.back().wants_convex, budget_)) {
+  for (CornerSet& set : extruded_corners(polygons, how, open_.back().wants_convex, budget_)) {
     give(frame, std::move(set));
   }
 }
@@ -178,8 +177,7 @@ void Evaluator::add_revolution(const Frame& frame, const RotateExtrude& how,
   const bool is_part = std::fabs(how.angle_degrees) < 360;
   const uint32_t body = begin_node(NodeKind::kBody, id, from);
   const auto end_now = [&](uint32_t node) { out_.nodes[node].end = uint32_t(out_.nodes.size()); };
-  const uint32_t whole =
-      is_part ? begin_node(NodeKind::kIntersection, 0, from) : body;
+  const uint32_t whole = is_part ? begin_node(NodeKind::kIntersection, 0, from) : body;
   const uint32_t turned = is_part ? begin_node(NodeKind::kUnion, 0, from) : body;
   for (const Ring& ring : rings(right, budget_)) {
     if (!budget_.spend(4)) return;

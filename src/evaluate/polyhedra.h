@@ -9,8 +9,8 @@
 
 namespace whittle {
 
-/// What a file's six digits can tell of its extents.
-inline constexpr double kPrintedDigits = 1e-6;
+/// Digits of a number in a text.
+inline constexpr int kPrintedDigits = 6;
 
 /// The facets of a facetted sphere or cylinder, of a polyhedron or a mesh.
 uint64_t facet_count(const Shape& shape);

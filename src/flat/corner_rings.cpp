@@ -8,11 +8,7 @@ namespace whittle {
 
 namespace {
 
-struct Edge {
-  uint32_t from = 0, to = 0;
-
-  auto operator<=>(const Edge&) const = default;
-};
+using Edge = CornerRings::Edge;
 
 std::vector<Edge> edges_that_stay(const WeldedPolygons& polygons) {
   // Each edge with its lower point first, and whether it runs that way.
@@ -77,10 +73,12 @@ void join(const std::vector<Spoke>& around, std::vector<uint32_t>& out_after) {
 
 }  // namespace
 
-CornerRings::CornerRings(const WeldedPolygons& polygons) {
-  const std::vector<Edge> edges = edges_that_stay(polygons);
+CornerRings::CornerRings(const WeldedPolygons& polygons)
+    : CornerRings(edges_that_stay(polygons), polygons.points) {}
+
+CornerRings::CornerRings(const std::vector<Edge>& edges, const std::vector<Vec2>& points) {
   // The spokes of each point, one after the other.
-  std::vector<uint32_t> first(polygons.points.size() + 1);
+  std::vector<uint32_t> first(points.size() + 1);
   for (const Edge& edge : edges) ++first[edge.from + 1], ++first[edge.to + 1];
   for (size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
   std::vector<Spoke> spokes(2 * edges.size());
@@ -91,12 +89,11 @@ CornerRings::CornerRings(const WeldedPolygons& polygons) {
   }
   std::vector<uint32_t> out_after(edges.size());
   std::vector<Spoke> around;
-  for (uint32_t point = 0; point < polygons.points.size(); ++point) {
+  for (uint32_t point = 0; point < points.size(); ++point) {
     around.assign(spokes.begin() + first[point], spokes.begin() + first[point + 1]);
-    if (around.size() > 2) sort_around(around, point, polygons.points);
+    if (around.size() > 2) sort_around(around, point, points);
     join(around, out_after);
   }
-  // A corner has the number of the edge that leaves it.
   corners_.resize(edges.size());
   for (uint32_t i = 0; i < edges.size(); ++i) {
     corners_[i].point = edges[i].from;

@@ -18,7 +18,14 @@ class CornerRings {
   struct Corner {
     uint32_t point = 0, previous = 0, next = 0;
   };
+  struct Edge {
+    uint32_t from = 0, to = 0;  ///< points
 
+    auto operator<=>(const Edge&) const = default;
+  };
+
+  /// As many edges must come to a point as leave it. The corner that an edge leaves has its number.
+  CornerRings(const std::vector<Edge>& edges, const std::vector<Vec2>& points);
   /// Edges that run along one another in opposite directions are no edges.
   explicit CornerRings(const WeldedPolygons& polygons);
 

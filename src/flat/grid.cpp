@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <exception>
 
+#include "flat/snap.h"
+
 namespace whittle {
 
 namespace {
@@ -51,7 +53,9 @@ Vec2 Grid::place(const ClipperLib::IntPoint& point) const {
   return {std::ldexp(double(point.X), -exponent_), std::ldexp(double(point.Y), -exponent_)};
 }
 
-Polygons Grid::from_grid(const ClipperLib::Paths& paths) const {
+Polygons Grid::from_grid(ClipperLib::Paths rough) const {
+  const ClipperLib::Paths paths = snapped(
+      std::move(rough), [&](const ClipperLib::IntPoint& p) { return written_.contains(p); });
   Polygons polygons;
   polygons.contours.reserve(paths.size());
   for (const ClipperLib::Path& path : paths) {

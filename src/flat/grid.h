@@ -28,7 +28,8 @@ class Grid {
   /// A length in steps.
   double steps(double length) const;
 
-  Polygons from_grid(const ClipperLib::Paths& paths) const;
+  /// Free of crossings for certain.
+  Polygons from_grid(ClipperLib::Paths rough) const;
   /// As from_grid, but without the corners as they were written.
   Vec2 place(const ClipperLib::IntPoint& point) const;
 

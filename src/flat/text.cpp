@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "flat/font_calls.h"
 #include "model/facets.h"
@@ -68,7 +69,7 @@ struct FontLibrary::State {
 FontLibrary::FontLibrary() = default;
 FontLibrary::~FontLibrary() = default;
 
-const FontLibrary::Face* FontLibrary::find(const std::string& name) {
+FontLibrary::Face* FontLibrary::find(const std::string& name) {
   if (!state_) state_ = std::make_unique<State>();
   const FontCalls& calls = state_->calls;
   if (state_->config == nullptr || state_->free_type == nullptr) return nullptr;
@@ -203,9 +204,10 @@ double offset_y(const std::string& align, double ascent, double descent) {
 TextOutline outline_text(const Text& text, FontLibrary& fonts) {
   TextOutline outline;
   if (!(text.size > 0) || !std::isfinite(text.size) || !std::isfinite(text.spacing)) return outline;
-  const FontLibrary::Face* const face = fonts.find(text.font);
+  FontLibrary::Face* const face = fonts.find(text.font);
+  outline.no_fonts = face == nullptr;
   if (face == nullptr) return outline;
-  outline.replacement = face->replacement;
+  outline.replacement = std::exchange(face->replacement, std::nullopt);
 
   const FontCalls& calls = *face->calls;
   const Buffer buffer = shaped(text, *face);

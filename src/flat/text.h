@@ -23,7 +23,7 @@ class FontLibrary {
   struct Face;
   /// The font that fontconfig has for a name like "Liberation Sans:style=Bold"; null if it has none
   /// at all. Stays valid as long as the library.
-  const Face* find(const std::string& name);
+  Face* find(const std::string& name);
 
  private:
   struct State;
@@ -34,8 +34,9 @@ class FontLibrary {
 struct TextOutline {
   /// A glyph each, which encloses what its contours enclose an odd number of times.
   std::vector<std::vector<Contour>> glyphs;
-  /// What was found in place of a font that is not there, by its family's name.
+  /// What was found in place of a font that is not there, by its family's name. Told once a font.
   std::optional<std::string> replacement;
+  bool no_fonts = false;  ///< there is none on this machine, or no way to draw it
 };
 
 /// Lays a text out (HarfBuzz) and outlines it (FreeType). Curves have as many segments as OpenSCAD

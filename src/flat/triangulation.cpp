@@ -7,14 +7,14 @@
 
 #include "flat/corner_rings.h"
 #include "flat/orientation.h"
+#include "flat/sweep_order.h"
 
 namespace whittle {
 
 namespace {
 
 /// An edge that the sweep line crosses and above which the region lies. It runs to the right.
-struct LowerEdge {
-  uint32_t from = 0, to = 0;  ///< points; from < to
+struct LowerEdge : SweptEdge {
   /// The corner, among those that the sweep has passed, from which all of the sweep line above the
   /// edge can be seen.
   uint32_t helper = 0;
@@ -48,7 +48,7 @@ class MonotoneSweep {
       uint32_t point, previous, next;
     };
     bool operator()(uint32_t edge, const Corner& corner) const {
-      return sweep->is_below(sweep->edges_[edge], corner.point, corner.previous, corner.next);
+      return sweep->is_below(sweep->edges_[edge], corner);
     }
   };
   using Status = std::multiset<uint32_t, Order>;
@@ -57,40 +57,23 @@ class MonotoneSweep {
     return orientation(points_[edge.from], points_[edge.to], points_[point]);
   }
 
-  /// Whether an edge runs below another where both are crossed.
   bool is_below(uint32_t a, uint32_t b) const {
-    if (a == b) return false;
-    const LowerEdge &e = edges_[a], &f = edges_[b];
-    // One that ends where the other begins counts as below.
-    if (e.to == f.from) return true;
-    if (f.to == e.from) return false;
-    if (e.from > f.from) {
-      double turn = side(f, e.from);
-      if (turn == 0) turn = side(f, e.to);
-      if (turn != 0) return turn < 0;
-    } else {
-      double turn = side(e, f.from);
-      if (turn == 0) turn = side(e, f.to);
-      if (turn != 0) return turn > 0;
-    }
-    return a < b;
+    const int order = a == b ? 0 : below(points_, edges_[a], edges_[b]);
+    return order != 0 ? order > 0 : a < b;
   }
 
   /// Whether an edge runs below a corner whose region begins below it.
-  bool is_below(const LowerEdge& edge, uint32_t point, uint32_t previous, uint32_t next) const {
-    // Edges that begin or end here bound other sectors.
-    if (edge.from == point) return false;
-    if (edge.to == point) return false;
-    double turn = side(edge, point);
+  bool is_below(const LowerEdge& edge, const Order::Corner& corner) const {
+    double height = above(points_, edge, corner.point);
     // A corner that touches the edge from above lies above it.
-    if (turn == 0) turn = side(edge, previous);
-    if (turn == 0) turn = side(edge, next);
-    return turn > 0;
+    if (height == 0) height = side(edge, corner.previous);
+    if (height == 0) height = side(edge, corner.next);
+    return height > 0;
   }
 
   void insert(uint32_t corner) {
     const uint32_t number = uint32_t(edges_.size());
-    edges_.push_back({rings_.point(corner), rings_.next_point(corner), corner, false});
+    edges_.push_back({{rings_.point(corner), rings_.next_point(corner)}, corner, false});
     into_[rings_[corner].next] = status_.insert(number);
   }
 

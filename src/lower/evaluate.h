@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "lower/scene.h"
 
@@ -13,40 +12,18 @@ namespace whittle {
 /// negation applied. Iterative; linear in the formula.
 template <class Word, class Value>
 Word evaluate(std::span<const Token> formula, Word ones, Value&& value) {
-  struct Open {
-    size_t end;
+  struct Group {
     bool conjunction;
     Word so_far;
+
+    void add(Word w) { so_far = conjunction ? Word(so_far & w) : Word(so_far | w); }
+    Word result() const { return so_far; }
   };
-  std::vector<Open> open;
-  // The formula is one operand of a conjunction that holds nothing else.
-  open.push_back({formula.size(), true, ones});
-  size_t i = 0;
-  const auto close_finished = [&] {
-    while (open.size() > 1 && open.back().end == i) {
-      const Word w = open.back().so_far;
-      open.pop_back();
-      Open& outer = open.back();
-      outer.so_far = outer.conjunction ? Word(outer.so_far & w) : Word(outer.so_far | w);
-    }
+  const auto begin = [&](TokenKind kind) {
+    const bool conjunction = kind == TokenKind::kAnd;
+    return Group{conjunction, conjunction ? ones : Word(0)};
   };
-  while (i < formula.size()) {
-    const Token token = formula[i];
-    if (token.is_pass()) {
-      ++i;
-    } else if (token.is_group()) {
-      const bool conjunction = token.kind() == TokenKind::kAnd;
-      open.push_back({i + token.payload(), conjunction, conjunction ? ones : Word(0)});
-      ++i;
-    } else {
-      Open& group = open.back();
-      const Word w = value(token);
-      group.so_far = group.conjunction ? Word(group.so_far & w) : Word(group.so_far | w);
-      ++i;
-    }
-    close_finished();
-  }
-  return open.front().so_far;
+  return fold(formula, begin, [&](Token token) -> Word { return value(token); });
 }
 
 /// Whether a local point lies in the half-space (its surface counts as inside).

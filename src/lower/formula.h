@@ -6,7 +6,11 @@
 // it (docs/conventions.md, tie rules), and simplification keeps it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <ranges>
+#include <span>
 #include <vector>
 
 namespace whittle {
@@ -21,9 +25,10 @@ enum class TokenKind : uint32_t {
   kOr,    ///< header of a disjunction
 };
 
-/// One token: kind (2 bits), negated (1 bit), payload (29 bits). A negated kAnd or kOr is not a
-/// group of its own: its operands belong to the group around it (what is left of a group that lost
-/// all but one operand, or came to stand in one of its own kind).
+/// One token: kind (2 bits), negated (1 bit), payload (29 bits). A negated kAnd or kOr is a pass,
+/// not a group of its own: its operands, one at least, belong to the group around it (what is left
+/// of a group that lost all but one operand, or came to stand in one of its own kind). Whoever
+/// reads with what is below meets no pass.
 struct Token {
   uint32_t bits;
 
@@ -42,5 +47,129 @@ struct Token {
 /// A whole formula is one operand: a literal, a unit, or a group. An empty kOr is false, an empty
 /// kAnd is true.
 using Formula = std::vector<Token>;
+
+/// One operand of a group, or a whole formula: a literal, a unit, or a group with all that is in
+/// it.
+struct Operand {
+  std::span<const Token> tokens;
+  size_t index = 0;  ///< in the formula, of the first of them
+
+  Token token() const { return tokens[0]; }
+  bool is_group() const { return token().is_group(); }
+  size_t end() const { return index + tokens.size(); }
+};
+
+/// The operand whose first token stands there; passes before it are passed over.
+inline Operand operand_at(std::span<const Token> formula, size_t index) {
+  while (formula[index].is_pass()) ++index;
+  const Token token = formula[index];
+  return {formula.subspan(index, token.is_group() ? token.payload() : 1), index};
+}
+
+/// A formula as the one operand that it is.
+inline Operand whole(std::span<const Token> formula) {
+  return operand_at(formula, 0);
+}
+
+/// The operands of a group, in their order, those of passes in it among them.
+class Operands {
+ public:
+  class Iterator {
+   public:
+    using value_type = Operand;
+    using difference_type = std::ptrdiff_t;
+
+    Iterator() = default;
+    Operand operator*() const {
+      const Operand found = operand_at(rest_, 0);
+      return {found.tokens, index_ + found.index};
+    }
+    Iterator& operator++() {
+      const size_t length = operand_at(rest_, 0).end();
+      rest_ = rest_.subspan(length);
+      index_ += length;
+      return *this;
+    }
+    Iterator operator++(int) {
+      const Iterator before = *this;
+      ++*this;
+      return before;
+    }
+    bool operator==(const Iterator& other) const { return index_ == other.index_; }
+    bool operator==(std::default_sentinel_t) const { return rest_.empty(); }
+
+   private:
+    friend class Operands;
+    explicit Iterator(Operand group) : rest_(group.tokens.subspan(1)), index_(group.index + 1) {}
+
+    std::span<const Token> rest_;
+    size_t index_ = 0;
+  };
+
+  explicit Operands(Operand group) : group_(group) {}
+  Iterator begin() const { return Iterator(group_); }
+  static std::default_sentinel_t end() { return {}; }
+
+ private:
+  Operand group_;
+};
+
+/// The operands of a group. Precondition: it is one.
+inline Operands operands_of(Operand group) {
+  return Operands(group);
+}
+
+/// All faces, units and groups' headers of a formula, in their order.
+inline auto flat_tokens(std::span<const Token> formula) {
+  return formula | std::views::filter([](Token token) { return !token.is_pass(); });
+}
+
+/// Reads a formula from its first token to its last: calls enter(operand) where a group begins,
+/// leave() where one ends, and visit(operand) for each face and unit. Iterative; linear.
+template <class Enter, class Visit, class Leave>
+void walk(std::span<const Token> formula, Enter&& enter, Visit&& visit, Leave&& leave) {
+  std::vector<size_t> ends;
+  for (size_t i = 0; i < formula.size();) {
+    const Operand operand = operand_at(formula, i);
+    i = operand.index + 1;
+    if (operand.is_group()) {
+      enter(operand);
+      ends.push_back(operand.end());
+    } else {
+      visit(operand);
+    }
+    for (; !ends.empty() && ends.back() == i; ends.pop_back()) leave();
+  }
+}
+
+/// From the bottom up: what a formula amounts to if value(token) is what a face or unit does, and
+/// begin(kind) makes what takes the operands of a group one by one, with add(value), and has a
+/// result(). Iterative; linear.
+template <class Begin, class Value>
+auto fold(std::span<const Token> formula, Begin&& begin, Value&& value) {
+  using Group = decltype(begin(TokenKind::kAnd));
+  struct Open {
+    size_t end;
+    Group group;
+  };
+  std::vector<Open> open;
+  for (size_t i = 0;;) {
+    const Operand operand = operand_at(formula, i);
+    i = operand.index + 1;
+    if (operand.tokens.size() > 1) {
+      open.push_back({operand.end(), begin(operand.token().kind())});
+      continue;
+    }
+    auto result =
+        operand.is_group() ? begin(operand.token().kind()).result() : value(operand.token());
+    // Hand it to the group around it, and close every group that this ends.
+    for (; !open.empty(); open.pop_back()) {
+      open.back().group.add(result);
+      if (i < open.back().end) break;
+      result = open.back().group.result();
+    }
+    if (open.empty()) return result;
+  }
+}
 
 }  // namespace whittle

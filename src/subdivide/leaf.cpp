@@ -44,9 +44,9 @@ void LeafAnalysis::analyse(std::span<const Token> formula) {
   // primitive that stands twice counts twice, as it does in the tree).
   uint32_t last_unit = UINT32_MAX;
   bool has_and = false, has_or = false;
-  for (const Token token : formula) {
-    if (token.kind() != TokenKind::kFace) {
-      if (!token.is_pass()) (token.kind() == TokenKind::kAnd ? has_and : has_or) = true;
+  for (const Token token : flat_tokens(formula)) {
+    if (token.is_group()) {
+      (token.kind() == TokenKind::kAnd ? has_and : has_or) = true;
       continue;
     }
     const Face& face = scene_.faces[token.payload()];
@@ -92,18 +92,26 @@ void LeafAnalysis::compute_table() {
 }
 
 bool LeafAnalysis::is_plain_union() const {
-  for (size_t i = 0; i < formula_.size(); ++i) {
-    const Token token = formula_[i];
-    if (token.is_pass() || token.kind() == TokenKind::kOr) continue;
-    // A conjunction is a primitive if all in it are faces of one.
-    const size_t end = token.is_group() ? i + token.payload() : i + 1;
-    if (token.is_group()) ++i;
-    const auto unit = [&](size_t at) { return scene_.faces[formula_[at].payload()].unit; };
-    for (const size_t first = i; i < end; ++i)
-      if (formula_[i].is_group() || formula_[i].negated() || unit(i) != unit(first)) return false;
-    i = end - 1;
-  }
-  return true;
+  // What an operand is: faces of the primitive of this number, or one of these.
+  constexpr uint32_t kUnion = UINT32_MAX, kNeither = UINT32_MAX - 1, kNothingYet = UINT32_MAX - 2;
+  struct Group {
+    bool conjunction;
+    uint32_t so_far = kNothingYet;
+
+    void add(uint32_t operand) {
+      // A conjunction is a primitive if all in it are faces of one.
+      const bool fits = conjunction
+                            ? operand < kNothingYet && (so_far == kNothingYet || so_far == operand)
+                            : operand != kNeither && so_far != kNeither;
+      so_far = !fits ? kNeither : conjunction ? operand : kUnion;
+    }
+    uint32_t result() const { return so_far; }
+  };
+  const auto begin = [](TokenKind kind) { return Group{kind == TokenKind::kAnd}; };
+  const auto value = [&](Token token) {
+    return token.negated() ? kNeither : scene_.faces[token.payload()].unit;
+  };
+  return fold(formula_, begin, value) != kNeither;
 }
 
 CellKind LeafAnalysis::signs(std::vector<Literal>& out) const {
@@ -120,9 +128,9 @@ CellKind LeafAnalysis::signs(std::vector<Literal>& out) const {
   }
   bool has_and = false, has_or = false;
   std::fill(out.begin(), out.end(), Literal(UINT32_MAX));
-  for (const Token token : formula_) {
+  for (const Token token : flat_tokens(formula_)) {
     if (token.is_group()) {
-      if (!token.is_pass()) (token.kind() == TokenKind::kAnd ? has_and : has_or) = true;
+      (token.kind() == TokenKind::kAnd ? has_and : has_or) = true;
       continue;
     }
     const Literal literal = scene_.faces[token.payload()].literal ^ Literal(token.negated());
@@ -166,32 +174,33 @@ void LeafAnalysis::make_program() {
   std::vector<uint32_t> step_at(formula_.size() + 1, 0);
   for (size_t i = 0; i < formula_.size(); ++i)
     step_at[i + 1] = step_at[i] + (formula_[i].is_group() ? 0 : 1);
+  // Where to go once a group's value is known.
   struct Open {
     size_t end;
     bool conjunction;
     uint32_t on_true, on_false;
   };
   std::vector<Open> open{{formula_.size(), true, kAnswerTrue, kAnswerFalse}};
-  for (size_t i = 0; i < formula_.size(); ++i) {
-    while (open.back().end == i) open.pop_back();
-    const Token token = formula_[i];
-    if (token.is_pass()) continue;
-    // Where to go once this operand's value is known: a group that it decides goes to its own
-    // target, else to the next operand.
-    const Open group = open.back();
-    const size_t end = token.is_group() ? i + token.payload() : i + 1;
-    const bool last = end == group.end;
-    const uint32_t next = step_at[end];
-    const uint32_t on_true = group.conjunction && !last ? next : group.on_true;
-    const uint32_t on_false = group.conjunction || last ? group.on_false : next;
-    if (token.is_group()) {
-      open.push_back({end, token.kind() == TokenKind::kAnd, on_true, on_false});
-    } else {
-      const Literal literal = scene_.faces[token.payload()].literal;
-      const bool complement = bool(literal & 1) != token.negated();
-      steps_.push_back({position(literal >> 1) * 2 + complement, on_true, on_false});
-    }
-  }
+  // Once this operand's value is known: a group that it decides goes to its own target, else to the
+  // next operand.
+  const auto targets = [&](const Operand& operand) {
+    const Open& group = open.back();
+    const bool last = operand.end() == group.end;
+    const uint32_t next = step_at[operand.end()];
+    return Open{operand.end(), operand.token().kind() == TokenKind::kAnd,
+                group.conjunction && !last ? next : group.on_true,
+                group.conjunction || last ? group.on_false : next};
+  };
+  const auto add_step = [&](const Operand& operand) {
+    const Token token = operand.token();
+    const Open to = targets(operand);
+    const Literal literal = scene_.faces[token.payload()].literal;
+    const bool complement = bool(literal & 1) != token.negated();
+    steps_.push_back({position(literal >> 1) * 2 + complement, to.on_true, to.on_false});
+  };
+  walk(
+      formula_, [&](const Operand& group) { open.push_back(targets(group)); }, add_step,
+      [&] { open.pop_back(); });
 }
 
 }  // namespace whittle

@@ -185,8 +185,8 @@ TEST(Simplify, KeepsTheValueInsideTheCell) {
 /// The formula with its pass headers left out: they mean nothing by themselves.
 Formula bare(const Formula& formula) {
   Formula result;
-  for (const Token token : formula)
-    if (!token.is_pass()) result.push_back(token.is_group() ? Token::make(token.kind(), 0) : token);
+  for (const Token token : flat_tokens(formula))
+    result.push_back(token.is_group() ? Token::make(token.kind(), 0) : token);
   return result;
 }
 

@@ -206,7 +206,7 @@ class Search {
     double reach = -kInfinity;
     size_t terms = 0;
     std::vector<Term> pending(1);
-    push_operands(cell.faces, 0, cell.faces.size(), pending[0].operands);
+    pending[0].operands.push_back(uint32_t(whole(cell.faces).index));
     while (!pending.empty()) {
       Term term = std::move(pending.back());
       pending.pop_back();
@@ -226,7 +226,7 @@ class Search {
       term.operands.pop_back();
       const Token token = formula[i];
       if (token.kind() == TokenKind::kAnd) {
-        push_operands(formula, i + 1, i + token.payload(), term.operands);
+        push_operands(operand_at(formula, i), term.operands);
       } else if (token.kind() == TokenKind::kOr) {
         choices.push_back(i);
       } else {
@@ -240,7 +240,7 @@ class Search {
     const uint32_t chosen = choices.back();
     choices.pop_back();
     std::vector<uint32_t> alternatives;
-    push_operands(formula, chosen + 1, chosen + formula[chosen].payload(), alternatives);
+    push_operands(operand_at(formula, chosen), alternatives);
     for (const uint32_t alternative : alternatives) {
       pending.push_back({term.literals, choices});
       pending.back().operands.push_back(alternative);
@@ -248,15 +248,9 @@ class Search {
     return false;
   }
 
-  /// Appends the numbers of the operands that stand in first <= i < last. A pass header's operands
-  /// are those of the group around it.
-  static void push_operands(const Formula& formula, size_t first, size_t last,
-                            std::vector<uint32_t>& out) {
-    for (size_t i = first; i < last;) {
-      const Token token = formula[i];
-      if (!token.is_pass()) out.push_back(uint32_t(i));
-      i += token.is_group() && !token.is_pass() ? token.payload() : 1;
-    }
+  /// Appends the numbers of a group's operands.
+  static void push_operands(Operand group, std::vector<uint32_t>& out) {
+    for (const Operand operand : operands_of(group)) out.push_back(uint32_t(operand.index));
   }
 
   double reach_of_term(const Cell& cell, const std::vector<Literal>& literals) {

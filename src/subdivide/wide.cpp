@@ -18,8 +18,8 @@ struct Reach {
   bool outside;  ///< that value
 };
 
-/// One operand of the outermost group, and the tokens that it has.
-struct Operand {
+/// The tokens of one operand of the outermost group.
+struct Tokens {
   uint32_t first, count;
 };
 
@@ -31,9 +31,9 @@ Reach reach_of(const Scene& scene, Token token) {
 
 /// A conjunction is false outside of what its operands that are false outside have in common; if
 /// there are none, it is true outside of all. A disjunction the other way round.
-class Fold {
+class ReachOfGroup {
  public:
-  explicit Fold(TokenKind kind) : absorbing_(kind == TokenKind::kOr) {}
+  explicit ReachOfGroup(TokenKind kind) : absorbing_(kind == TokenKind::kOr) {}
 
   void add(const Reach& operand) {
     if (operand.outside == absorbing_) {
@@ -51,58 +51,27 @@ class Fold {
 };
 
 Reach reach_of(const Scene& scene, std::span<const Token> operand) {
-  if (!operand[0].is_group()) return reach_of(scene, operand[0]);
-  struct Open {
-    size_t end;
-    Fold fold;
-  };
-  std::vector<Open> open;
-  size_t i = 0;
-  while (true) {
-    const Token token = operand[i];
-    if (token.is_group() && !token.is_pass())
-      open.push_back({i + token.payload(), Fold(token.kind())});
-    else if (!token.is_pass())
-      open.back().fold.add(reach_of(scene, token));
-    ++i;
-    while (open.back().end == i) {
-      const Reach done = open.back().fold.result();
-      open.pop_back();
-      if (open.empty()) return done;
-      open.back().fold.add(done);
-    }
+  return fold(
+      operand, [](TokenKind kind) { return ReachOfGroup(kind); },
+      [&](Token token) { return reach_of(scene, token); });
+}
+
+/// The outermost group of several operands, if there is one: not a group around one other.
+Operand outermost_group(std::span<const Token> formula) {
+  Operand top = whole(formula);
+  while (top.tokens.size() > 1) {
+    const Operand first = *operands_of(top).begin();
+    if (!first.is_group() || first.end() != top.end()) break;
+    top = first;
   }
+  return top;
 }
 
-/// The outermost group of several operands, if there is one: not a left-over of a group that lost
-/// all but one, nor a group around one other.
-std::span<const Token> outermost_group(std::span<const Token> formula) {
-  const auto is_around_one = [](std::span<const Token> group) {
-    return group[0].is_group() && group.size() > 1 && group[1].is_group() && !group[1].is_pass() &&
-           group[1].payload() + 1 == group.size();
-  };
-  while (formula[0].is_pass() || is_around_one(formula)) formula = formula.subspan(1);
-  return formula;
-}
-
-/// Calls visit(operand) for those of a group, in their order.
-template <class Visit>
-void for_operands(std::span<const Token> formula, const Visit& visit) {
-  for (uint32_t i = 1; i < formula.size();) {
-    if (formula[i].is_pass()) {
-      ++i;
-      continue;
-    }
-    const uint32_t count = formula[i].is_group() ? formula[i].payload() : 1;
-    visit(Operand{i, count});
-    i += count;
-  }
-}
-
-std::vector<Operand> operands_of(std::span<const Token> formula) {
-  std::vector<Operand> operands;
-  operands.reserve(formula.size());
-  for_operands(formula, [&](Operand operand) { operands.push_back(operand); });
+std::vector<Tokens> operands_in(Operand group) {
+  std::vector<Tokens> operands;
+  operands.reserve(group.tokens.size());
+  for (const Operand operand : operands_of(group))
+    operands.push_back({uint32_t(operand.index), uint32_t(operand.tokens.size())});
   return operands;
 }
 
@@ -168,17 +137,15 @@ SplitGrid make_grid(const Box& box, int splits, SplitRule rule, uint32_t depth) 
 }
 
 size_t operand_count(std::span<const Token> formula) {
-  formula = outermost_group(formula);
-  size_t count = 0;
-  if (formula[0].is_group()) for_operands(formula, [&](Operand) { ++count; });
-  return count;
+  const Operand top = outermost_group(formula);
+  return top.is_group() ? size_t(std::ranges::distance(operands_of(top))) : 0;
 }
 
 std::vector<Formula> deal_operands(const Scene& scene, std::span<const Token> formula,
                                    const SplitGrid& grid, double margin, const Loop& loop) {
-  formula = outermost_group(formula);
-  const TokenKind kind = formula[0].kind();
-  const std::vector<Operand> operands = operands_of(formula);
+  const Operand top = outermost_group(formula);
+  const TokenKind kind = top.token().kind();
+  const std::vector<Tokens> operands = operands_in(top);
   const size_t parts = grid.size(), chunks = (operands.size() + kChunk - 1) / kChunk;
   std::vector<Dealt> dealt(chunks);
   std::atomic<size_t> total = 0;
@@ -240,7 +207,7 @@ std::vector<Formula> deal_operands(const Scene& scene, std::span<const Token> fo
       out.push_back(Token::make(kind, uint32_t(tokens)));
       for (const Dealt& chunk : dealt)
         for (uint32_t k = chunk.first[part]; k < chunk.first[part + 1]; ++k) {
-          const Operand& operand = operands[chunk.operands[k]];
+          const Tokens& operand = operands[chunk.operands[k]];
           out.insert(out.end(), formula.begin() + operand.first,
                      formula.begin() + operand.first + operand.count);
         }

@@ -212,44 +212,28 @@ const Face& LeafSolver::owner(const Leaf& leaf, std::span<const LeafLiteral> lit
     }
     return bool(face & 1) != token.negated() ? uint8_t(both ^ 3) : both;
   };
-  const auto changes = [&](size_t at, size_t size) {
-    const uint8_t both = evaluate<uint8_t>(formula.subspan(at, size), 3, value);
+  const auto changes = [&](const Operand& operand) {
+    const uint8_t both = evaluate<uint8_t>(operand.tokens, 3, value);
     return both == 1 || both == 2;
   };
   // Down the tree, at each group into the first operand that changes.
-  size_t at = 0;
-  while (formula[at].is_group()) {
-    if (formula[at].is_pass()) {
-      ++at;
-      continue;
-    }
-    const size_t end = at + formula[at].payload();
-    size_t operand = at + 1, chosen = end;
-    while (operand < end) {
-      if (formula[operand].is_pass()) {
-        ++operand;
-        continue;
-      }
-      const size_t size = formula[operand].is_group() ? formula[operand].payload() : 1;
-      if (changes(operand, size)) {
-        chosen = operand;
-        break;
-      }
-      operand += size;
-    }
-    if (chosen == end) {
+  Operand at = whole(formula);
+  while (at.is_group()) {
+    const Operands operands = operands_of(at);
+    const auto chosen = std::ranges::find_if(operands, changes);
+    if (chosen == operands.end()) {
       // No operand changes here: the neighbouring cell did not see this change, so its half-space
       // was on the other side of rounding. The first face on that half-space has it.
       const uint32_t half_space = literals[group[0].literal].literal >> 1;
-      for (at = 0; at + 1 < formula.size(); ++at)
-        if (!formula[at].is_group() &&
-            scene_.faces[formula[at].payload()].literal >> 1 == half_space)
-          break;
-      break;
+      const auto is_on_it = [&](Token token) {
+        return !token.is_group() && scene_.faces[token.payload()].literal >> 1 == half_space;
+      };
+      const auto found = std::ranges::find_if(formula, is_on_it);
+      return scene_.faces[(found == formula.end() ? formula.back() : *found).payload()];
     }
-    at = chosen;
+    at = *chosen;
   }
-  return scene_.faces[formula[at].payload()];
+  return scene_.faces[at.token().payload()];
 }
 
 }  // namespace whittle

@@ -148,23 +148,22 @@ class Flattener {
     std::vector<uint32_t>& to = part_.words;
     const size_t count = to.size();
     to.push_back(0);
-    std::vector<uint32_t> ends;
+    size_t depth = 0;
     const auto add = [&](OwningStep kind, uint32_t operand, uint32_t owner) {
       to.insert(to.end(), {kind | operand << 3, owner});
       ++to[count];
     };
-    for (uint32_t i = 0; i <= leaf.token_count; ++i) {
-      for (; !ends.empty() && ends.back() == i; ends.pop_back()) add(kEnd, 0, 0);
-      if (i == leaf.token_count) break;
-      const Token token = leaf.tokens()[i];
-      if (token.is_pass()) continue;
-      if (token.is_group()) {
-        add(token.kind() == TokenKind::kAnd ? kBeginAnd : kBeginOr, 0, 0);
-        ends.push_back(i + token.payload());
-        // The outermost group is one level, the conjunction around it another.
-        if (ends.size() >= kMostNested) too_nested_ = true;
-        continue;
-      }
+    const auto enter = [&](const Operand& group) {
+      add(group.token().kind() == TokenKind::kAnd ? kBeginAnd : kBeginOr, 0, 0);
+      // The outermost group is one level, the conjunction around it another.
+      if (++depth >= kMostNested) too_nested_ = true;
+    };
+    const auto leave = [&] {
+      add(kEnd, 0, 0);
+      --depth;
+    };
+    const auto add_literal = [&](const Operand& operand) {
+      const Token token = operand.token();
       const Face& face = scene_.faces[token.payload()];
       const bool complement = bool(face.literal & 1) != token.negated();
       const uint32_t half_space = face.literal >> 1, owner = scene_.units[face.unit].id;
@@ -176,7 +175,8 @@ class Flattener {
         add(complement != bool(literals[at].literal & 1) ? kNotLiteral : kLiteral, at, owner);
       else
         add(complement ? kNotElsewhere : kElsewhere, half_space, owner);
-    }
+    };
+    walk(leaf.tokens(), enter, add_literal, leave);
   }
 
   const Scene& scene_;
