@@ -47,15 +47,31 @@ bool LocalBsp::is_inside(const Unit& unit, const CellBox& cell) const {
   return scene_.boundaries[unit.boundary].winding(cell.center + times(kProbes[0], cell.half)) != 0;
 }
 
-/// The number of a face's plane in this cell.
-uint32_t LocalBsp::plane_of(uint32_t face, const CellBox& cell) {
+/// The number of the plane of a face's polygon in this cell. Planes that cannot be told apart on
+/// the polygon are one here.
+uint32_t LocalBsp::plane_of(uint32_t face, std::span<const Vec3> polygon, const CellBox& cell) {
   const uint32_t number = scene_.faces[face].literal >> 1;
-  for (uint32_t i = 0; i < planes_.size(); ++i)
-    if (planes_[i].half_space == number) return i;
   const HalfSpace& h = scene_.half_spaces[number];
   const Vec3 n = h.f.b * 2.0;
+  for (uint32_t i = 0; i < planes_.size(); ++i) {
+    if (planes_[i].half_space == number) return i;
+    const auto is_on = [&](Vec3 q) { return std::fabs(planes_[i].at(q)) <= 2 * slack_; };
+    if (std::fabs(dot(n, planes_[i].n)) > 0.9 && std::ranges::all_of(polygon, is_on)) return i;
+  }
   planes_.push_back({n, dot(n, cell.center - h.center) + h.f.c, number, face});
   return uint32_t(planes_.size() - 1);
+}
+
+/// About the thickness of a thin polygon: twice its area over its circumference.
+double LocalBsp::width_of(std::span<const Vec3> polygon) const {
+  Vec3 area;
+  double around = 0;
+  for (size_t k = 0; k < polygon.size(); ++k) {
+    const Vec3 a = polygon[k] - polygon[0], b = polygon[(k + 1) % polygon.size()] - polygon[0];
+    area += cross(a, b);
+    around += length(b - a);
+  }
+  return around > 0 ? length(area) / around : 0;
 }
 
 /// Keeps of the polygon that `cut_` holds what is at sign * q[axis] <= limit.
@@ -84,13 +100,15 @@ void LocalBsp::collect(const Boundary& boundary, const CellBox& cell, Vec3 reach
     cut_.clear();
     for (const uint32_t corner : triangle.corners)
       cut_.push_back(boundary.point(corner) - cell.center);
+    const Vec3 normal = cross(cut_[1] - cut_[0], cut_[2] - cut_[0]);
     for (uint32_t axis = 0; axis < 3 && !cut_.empty(); ++axis) {
       clip(axis, 1, reach[int(axis)]);
       clip(axis, -1, reach[int(axis)]);
     }
-    if (cut_.size() < 3) return true;
-    polygons_.push_back({uint32_t(corners_.size()), uint32_t(cut_.size()),
-                         plane_of(triangle.face, cell), literal & 1 ? -1 : 1});
+    if (cut_.size() < 3 || !(width_of(cut_) > 4 * slack_)) return true;
+    const uint32_t plane = plane_of(triangle.face, cut_, cell);
+    const int outward = dot(normal, planes_[plane].n) < 0 ? -1 : 1;
+    polygons_.push_back({uint32_t(corners_.size()), uint32_t(cut_.size()), plane, outward});
     corners_.insert(corners_.end(), cut_.begin(), cut_.end());
     return true;
   });
@@ -199,11 +217,15 @@ void LocalBsp::divide(std::span<const uint32_t> polygons, uint32_t plane, Node& 
     if (highest > slack_ && lowest < -slack_) {
       Polygon front, back;
       split(polygon, plane, front, back);
-      if (front.count >= 3) {
+      const auto is_wide = [&](const Polygon& part) {
+        return part.count >= 3 &&
+               width_of(std::span(corners_).subspan(part.first, part.count)) > 2 * slack_;
+      };
+      if (is_wide(front)) {
         front_.push_back(uint32_t(polygons_.size()));
         polygons_.push_back(front);
       }
-      if (back.count >= 3) {
+      if (is_wide(back)) {
         back_.push_back(uint32_t(polygons_.size()));
         polygons_.push_back(back);
       }
@@ -432,7 +454,7 @@ void LocalBsp::write(bool negated) {
 std::span<const Token> LocalBsp::formula(const Unit& unit, const CellBox& cell, bool negated) {
   const Boundary& boundary = scene_.boundaries[unit.boundary];
   slack_ = boundary.slack();
-  collect(boundary, cell, cell.half + Vec3{slack_, slack_, slack_});
+  collect(boundary, cell, cell.half);
   if (polygons_.empty()) {
     const bool value = is_inside(unit, cell) != negated;
     tokens_.assign(1, Token::make(value ? TokenKind::kAnd : TokenKind::kOr, 1));
