@@ -26,8 +26,8 @@ class RotateExtruder {
     for (const Vec2 p : profile.points) least = std::min(least, p.x);
     // A profile on the left, a turn to the right and a step by more than a half turn each turn the
     // body inside out.
-    const bool over = std::abs(turn.angle_degrees) / turn.steps > 180;
-    flip_ = (least < 0) != ((turn.angle_degrees < 0) != over);
+    over_ = std::abs(turn.angle_degrees) / turn.steps > 180;
+    flip_ = (least < 0) != ((turn.angle_degrees < 0) != over_);
   }
 
   TriangleMesh run() && {
@@ -58,7 +58,9 @@ class RotateExtruder {
       builder_.triangle(a, b, c, facet);
   }
 
-  uint32_t facet(Plane plane) { return builder_.facet(flip_ ? Plane{-plane.n, -plane.d} : plane); }
+  uint32_t facet(Plane plane, bool flip) {
+    return builder_.facet(flip ? Plane{-plane.n, -plane.d} : plane);
+  }
 
   void add_step(const std::vector<Side>& all, int j) {
     const Ring &here = rings_[size_t(j)], &there = rings_[size_t(j) + 1];
@@ -69,7 +71,7 @@ class RotateExtruder {
       const uint32_t a = here[side.from], b = here[side.to];
       // On the axis nothing is swept.
       if (a == there[side.from] && b == there[side.to]) continue;
-      const uint32_t number = facet(plane(side, c, s, apothem));
+      const uint32_t number = facet(plane(side, c, s, apothem), over_);
       triangle(a, there[side.from], there[side.to], number);
       triangle(a, there[side.to], b, number);
     }
@@ -89,8 +91,8 @@ class RotateExtruder {
 
   void add_caps() {
     const double first = turn_.degrees(0), last = turn_.degrees(turn_.steps);
-    const uint32_t start = facet({{sin_degrees(first), -cos_degrees(first), 0}, 0});
-    const uint32_t end = facet({{-sin_degrees(last), cos_degrees(last), 0}, 0});
+    const uint32_t start = facet({{sin_degrees(first), -cos_degrees(first), 0}, 0}, flip_);
+    const uint32_t end = facet({{-sin_degrees(last), cos_degrees(last), 0}, 0}, flip_);
     for (const auto& [a, b, c] : triangulate(profile_)) {
       triangle(rings_.front()[a], rings_.front()[b], rings_.front()[c], start);
       triangle(rings_.back()[a], rings_.back()[c], rings_.back()[b], end);
@@ -99,7 +101,8 @@ class RotateExtruder {
 
   const WeldedPolygons& profile_;
   const Turn turn_;
-  bool flip_ = false;
+  bool over_ = false;  ///< sides are seen from behind
+  bool flip_ = false;  ///< so are triangles and ends
   MeshBuilder builder_;
   std::vector<Ring> rings_;
 };
