@@ -20,18 +20,25 @@ class CutFaces {
 
   /// Whether any face of the primitive lies on one of the other sign. False: the solid holds all
   /// its faces or none of them, and is_cut need not be asked.
-  bool is_contested(uint32_t id) const { return id < unit_of_.size() && unit_of_[id] != kNoUnit; }
+  bool is_contested(uint32_t id) const {
+    return id < units_of_.size() && units_of_[id].first != kNoUnit;
+  }
   /// Whether the surface of that primitive at a world point is cut. The point may be off the
   /// surface by rounding. Linear in the formula. Precondition: is_contested(id).
   bool is_cut(uint32_t id, Vec3 point) const;
 
  private:
   static constexpr uint32_t kNoUnit = UINT32_MAX;
-  bool has_or_touches(const Unit& unit, uint32_t surface, Vec3 p, double margin) const;
-  uint32_t half_space_at(uint32_t unit, Vec3 p) const;
+  /// The units of one body stand in a row.
+  struct Units {
+    uint32_t first = kNoUnit, last = 0;
+  };
+  bool has(const Unit& unit, uint32_t surface, Vec3 p) const;
+  uint32_t surface_at(Units units, Vec3 p) const;
 
   const Scene& scene_;
-  std::vector<uint32_t> unit_of_;  ///< by id: its unit if it is contested
+  double margin_;                ///< surfaces and boxes may be off by so much
+  std::vector<Units> units_of_;  ///< by id, if it is contested
 };
 
 }  // namespace whittle

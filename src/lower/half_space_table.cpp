@@ -14,9 +14,7 @@ constexpr uint32_t kNone = UINT32_MAX;
 /// Unit cells of the indices in fingerprint units, and in those of normals.
 constexpr double kCellsPerUnit = 64;
 
-/// Of normals there may be millions, all told apart by much less than such a cell: then they are in
-/// finer cells as well, for those who ask for very near ones.
-constexpr double kFineCellsPerUnit = 1 << 16;
+/// With more groups of planes than this their normals are in finer cells, too.
 constexpr size_t kManyGroups = 4096;
 
 /// Normals of a group differ by no more than this in any coordinate: far above rounding, and so
@@ -164,14 +162,15 @@ void HalfSpaceTable::visit_near(PointIndex Shelves::*shelf, const HalfSpace& h, 
 
 template <class Visit>
 void HalfSpaceTable::visit_groups(Vec3 n, double parting, const Visit& visit) const {
-  const bool fine = normals_.size() > kManyGroups && parting * kFineCellsPerUnit < 0.5;
-  const double scale = fine ? kFineCellsPerUnit : kCellsPerUnit;
+  size_t level = normals_.size() > kManyGroups ? kNormalCellsPerUnit.size() - 1 : 0;
+  while (level > 0 && parting * kNormalCellsPerUnit[level] > 0.5) --level;
+  const double scale = kNormalCellsPerUnit[level];
   PointIndex::Point low, high;
   for (size_t i = 0; i < 3; ++i) {
     low[i] = (n[int(i)] - parting) * scale;
     high[i] = (n[int(i)] + parting) * scale;
   }
-  (fine ? fine_groups_ : groups_).visit(low, high, visit);
+  groups_[level].visit(low, high, visit);
 }
 
 uint32_t HalfSpaceTable::group_of(Vec3 n) {
@@ -181,16 +180,17 @@ uint32_t HalfSpaceTable::group_of(Vec3 n) {
     return true;
   });
   if (group != kNone) return group;
-  const auto scaled = [](Vec3 v, double scale) {
-    return PointIndex::Point{v.x * scale, v.y * scale, v.z * scale};
+  const auto put_in = [&](size_t level, uint32_t i) {
+    const double scale = kNormalCellsPerUnit[level];
+    groups_[level].add({normals_[i].x * scale, normals_[i].y * scale, normals_[i].z * scale}, i);
   };
   group = uint32_t(normals_.size());
   normals_.push_back(n);
-  groups_.add(scaled(n, kCellsPerUnit), group);
+  put_in(0, group);
   if (normals_.size() <= kManyGroups) return group;
   const uint32_t first = normals_.size() == kManyGroups + 1 ? 0 : group;
-  for (uint32_t i = first; i <= group; ++i)
-    fine_groups_.add(scaled(normals_[i], kFineCellsPerUnit), i);
+  for (size_t level = 1; level < kNormalCellsPerUnit.size(); ++level)
+    for (uint32_t i = first; i <= group; ++i) put_in(level, i);
   return group;
 }
 

@@ -6,6 +6,7 @@
 // that have a number only, which never move, so a row of nearly equal planes cannot chain into one.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -96,7 +97,10 @@ class HalfSpaceTable {
   /// Planes in groups that have one normal but for rounding, and by group and distance from the
   /// origin.
   std::vector<Vec3> normals_;
-  PointIndex groups_, fine_groups_;  ///< in coarse cells; in fine ones too, if there are many
+  /// In cells of several sizes, so that who asks for very near ones does not meet all that are
+  /// near; in the coarsest alone as long as there are few.
+  static constexpr std::array<double, 3> kNormalCellsPerUnit = {1 << 6, 1 << 10, 1 << 16};
+  std::array<PointIndex, kNormalCellsPerUnit.size()> groups_;
   Shelves planes_;
 };
 

@@ -128,11 +128,13 @@ class Outlines {
 /// Walks the model in preorder and writes the formula with negation pushed to the literals.
 class FormulaBuilder {
  public:
-  FormulaBuilder(const Model& model, const Scene& scene, const std::vector<uint32_t>& unit_of_node)
+  FormulaBuilder(const Model& model, const std::vector<uint32_t>& unit_of_node, Scene& scene)
       : model_(model), scene_(scene), unit_of_node_(unit_of_node) {}
 
-  /// Fails if the formula outgrows a token's payload.
-  bool build(Formula& out) {
+  /// Writes the scene's formula, and which units are inward. Fails if the formula outgrows a
+  /// token's payload.
+  bool build() {
+    Formula& out = scene_.formula;
     uint32_t i = 0;
     const uint32_t end = uint32_t(model_.nodes.size());
     while (i < end) {
@@ -165,6 +167,8 @@ class FormulaBuilder {
     bool saw_operand;  ///< the first operand is behind us
     bool has_header;   ///< false: its operands belong to the group around it
     uint32_t header;
+    bool is_in_body;    ///< it is a body of several parts, or in one
+    bool body_negated;  ///< that body's sign
   };
 
   bool next_operand_negated() {
@@ -184,8 +188,11 @@ class FormulaBuilder {
     const bool and_group = conjunction && has_operand(i) ? !negated : negated;
     const TokenKind kind = and_group ? TokenKind::kAnd : TokenKind::kOr;
     const bool has_header = open_.empty() || open_.back().kind != kind;
+    const bool is_inside_body = !open_.empty() && open_.back().is_in_body;
+    const bool is_in_body = is_inside_body || node.kind == NodeKind::kBody;
+    const bool body_negated = is_inside_body ? open_.back().body_negated : negated;
     open_.push_back({node.end, kind, negated, node.kind == NodeKind::kDifference, false, has_header,
-                     uint32_t(out.size())});
+                     uint32_t(out.size()), is_in_body, body_negated});
     if (has_header) out.push_back(Token::make(kind, 0));
   }
 
@@ -204,6 +211,8 @@ class FormulaBuilder {
 
   void primitive(uint32_t i, bool negated, Formula& out) {
     const uint32_t u = unit_of_node_[i];
+    const Open& around = open_.back();
+    scene_.units[u].inward = around.is_in_body && around.body_negated != negated;
     const uint32_t faces = scene_.units[u].face_count;
     if (faces == 0)  // empty: false, or true under a negation
       out.push_back(Token::make(negated ? TokenKind::kAnd : TokenKind::kOr, 1));
@@ -214,7 +223,7 @@ class FormulaBuilder {
   }
 
   const Model& model_;
-  const Scene& scene_;
+  Scene& scene_;
   const std::vector<uint32_t>& unit_of_node_;
   std::vector<Open> open_;
 };
@@ -301,7 +310,7 @@ Result<Scene> lower(const Model& model) {
     face.literal = merged.literals[face.literal >> 1] ^ (face.literal & 1);
   grow_moved_face_boxes(scene);
   measure_slacks(scene, least_tolerance);
-  if (!FormulaBuilder(model, scene, unit_of_node).build(scene.formula)) return too_large();
+  if (!FormulaBuilder(model, unit_of_node, scene).build()) return too_large();
   return scene;
 }
 

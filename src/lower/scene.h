@@ -54,6 +54,8 @@ struct Unit {
 
   uint32_t boundary = kNoBoundary;  ///< into Scene::boundaries; then the faces are its planes
 
+  bool inward = false;  ///< it is taken away from the body it is a part of
+
   static constexpr uint32_t kNoBoxes = UINT32_MAX, kNoBoundary = UINT32_MAX;
   bool is_conjunction() const { return boundary == kNoBoundary; }
 };

@@ -1,17 +1,30 @@
 #include "subdivide/local_bsp.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 namespace whittle {
 namespace {
 
-/// Where in a cell it is asked which side of the boundary that is: places that no model favours, as
-/// shares of the cell's half size.
-constexpr Vec3 kProbes[] = {{0.137, -0.211, 0.173},  {-0.523, 0.317, -0.611},
-                            {0.709, 0.571, -0.367},  {-0.269, -0.743, 0.457},
-                            {0.419, -0.653, -0.787}, {-0.811, 0.149, 0.683}};
+/// Places in a cell, as shares of its half size, that no model favours: the first sixteen of the
+/// Halton sequence in bases 2, 3 and 5, moved a little.
+constexpr std::array<Vec3, 16> kProbes = [] {
+  std::array<Vec3, 16> all{};
+  const auto radical_inverse = [](int i, int base) {
+    double result = 0, digit = 1;
+    for (; i > 0; i /= base) result += (digit /= base) * (i % base);
+    return result;
+  };
+  for (int i = 0; i < 16; ++i) {
+    Vec3 p{radical_inverse(i + 1, 2) + 0.0137, radical_inverse(i + 1, 3) - 0.0211,
+           radical_inverse(i + 1, 5) + 0.0173};
+    for (int axis = 0; axis < 3; ++axis)
+      all[std::size_t(i)][axis] = 1.9 * (p[axis] - (p[axis] >= 1 ? 1 : 0)) - 0.95;
+  }
+  return all;
+}();
 
 /// Weights of a polygon's corners that give points inside of it.
 constexpr double kWeights[][3] = {
@@ -47,15 +60,31 @@ bool LocalBsp::is_inside(const Unit& unit, const CellBox& cell) const {
   return scene_.boundaries[unit.boundary].winding(cell.center + times(kProbes[0], cell.half)) != 0;
 }
 
-/// The number of a face's plane in this cell.
-uint32_t LocalBsp::plane_of(uint32_t face, const CellBox& cell) {
+/// The number of the plane of a face's polygon in this cell. Planes that cannot be told apart on
+/// the polygon are one here.
+uint32_t LocalBsp::plane_of(uint32_t face, std::span<const Vec3> polygon, const CellBox& cell) {
   const uint32_t number = scene_.faces[face].literal >> 1;
-  for (uint32_t i = 0; i < planes_.size(); ++i)
-    if (planes_[i].half_space == number) return i;
   const HalfSpace& h = scene_.half_spaces[number];
   const Vec3 n = h.f.b * 2.0;
+  for (uint32_t i = 0; i < planes_.size(); ++i) {
+    if (planes_[i].half_space == number) return i;
+    const auto is_on = [&](Vec3 q) { return std::fabs(planes_[i].at(q)) <= 2 * slack_; };
+    if (std::fabs(dot(n, planes_[i].n)) > 0.9 && std::ranges::all_of(polygon, is_on)) return i;
+  }
   planes_.push_back({n, dot(n, cell.center - h.center) + h.f.c, number, face});
   return uint32_t(planes_.size() - 1);
+}
+
+/// About the thickness of a thin polygon: twice its area over its circumference.
+double LocalBsp::width_of(std::span<const Vec3> polygon) const {
+  Vec3 area;
+  double around = 0;
+  for (size_t k = 0; k < polygon.size(); ++k) {
+    const Vec3 a = polygon[k] - polygon[0], b = polygon[(k + 1) % polygon.size()] - polygon[0];
+    area += cross(a, b);
+    around += length(b - a);
+  }
+  return around > 0 ? length(area) / around : 0;
 }
 
 /// Keeps of the polygon that `cut_` holds what is at sign * q[axis] <= limit.
@@ -71,6 +100,19 @@ void LocalBsp::clip(uint32_t axis, int sign, double limit) {
   cut_.erase(cut_.begin(), cut_.begin() + std::ptrdiff_t(n));
 }
 
+/// How far the corners of the triangles in the cell are from their planes. Of the whole boundary
+/// that may be much more, and here it would hide what is small.
+void LocalBsp::measure_slack(const Boundary& boundary, const CellBox& cell) {
+  slack_ = boundary.rounding();
+  boundary.visit_in(cell.center, cell.half, [&](uint32_t i) {
+    const Boundary::Triangle& triangle = boundary.triangles()[i];
+    const HalfSpace& h = scene_.half_spaces[scene_.faces[triangle.face].literal >> 1];
+    for (const uint32_t corner : triangle.corners)
+      slack_ = std::max(slack_, std::fabs(2 * dot(h.f.b, boundary.point(corner) - h.center)));
+    return true;
+  });
+}
+
 /// The triangles of the boundary, as far as they are in the cell, and their planes.
 void LocalBsp::collect(const Boundary& boundary, const CellBox& cell, Vec3 reach) {
   planes_.clear();
@@ -84,13 +126,15 @@ void LocalBsp::collect(const Boundary& boundary, const CellBox& cell, Vec3 reach
     cut_.clear();
     for (const uint32_t corner : triangle.corners)
       cut_.push_back(boundary.point(corner) - cell.center);
+    const Vec3 normal = cross(cut_[1] - cut_[0], cut_[2] - cut_[0]);
     for (uint32_t axis = 0; axis < 3 && !cut_.empty(); ++axis) {
       clip(axis, 1, reach[int(axis)]);
       clip(axis, -1, reach[int(axis)]);
     }
-    if (cut_.size() < 3) return true;
-    polygons_.push_back({uint32_t(corners_.size()), uint32_t(cut_.size()),
-                         plane_of(triangle.face, cell), literal & 1 ? -1 : 1});
+    if (cut_.size() < 3 || !(width_of(cut_) > 4 * slack_)) return true;
+    const uint32_t plane = plane_of(triangle.face, cut_, cell);
+    const int outward = dot(normal, planes_[plane].n) < 0 ? -1 : 1;
+    polygons_.push_back({uint32_t(corners_.size()), uint32_t(cut_.size()), plane, outward});
     corners_.insert(corners_.end(), cut_.begin(), cut_.end());
     return true;
   });
@@ -199,11 +243,15 @@ void LocalBsp::divide(std::span<const uint32_t> polygons, uint32_t plane, Node& 
     if (highest > slack_ && lowest < -slack_) {
       Polygon front, back;
       split(polygon, plane, front, back);
-      if (front.count >= 3) {
+      const auto is_wide = [&](const Polygon& part) {
+        return part.count >= 3 &&
+               width_of(std::span(corners_).subspan(part.first, part.count)) > 2 * slack_;
+      };
+      if (is_wide(front)) {
         front_.push_back(uint32_t(polygons_.size()));
         polygons_.push_back(front);
       }
-      if (back.count >= 3) {
+      if (is_wide(back)) {
         back_.push_back(uint32_t(polygons_.size()));
         polygons_.push_back(back);
       }
@@ -254,29 +302,23 @@ uint32_t LocalBsp::part_at(uint32_t node, Vec3 q) const {
   return node & ~kPart;
 }
 
-/// Every node tells by how much the winding numbers differ of two parts, one on either side of its
-/// sample: n parts are related by n - 1 nodes. One number is found by the whole boundary, and the
-/// rest follow.
+/// The parts that one of many points of the cell lies in are looked up in the whole boundary. The
+/// rest, which are small, follow from their neighbours: every node tells by how much the winding
+/// numbers differ of two parts, one on either side of its sample, and so its n - 1 nodes relate n
+/// parts.
 void LocalBsp::label(const Boundary& boundary, const CellBox& cell) {
-  struct Relation {
-    uint32_t front, back;
-    int jump;
+  struct Probe {
+    Vec3 at;
+    double distance = -1;  ///< from the nearest plane
   };
-  std::vector<Relation> relations;
-  relations.reserve(nodes_.size());
-  for (const Node& node : nodes_)
-    relations.push_back(
-        {part_at(node.child[0], node.sample), part_at(node.child[1], node.sample), node.jump});
-
-  Vec3 probe;
-  double best = -1;
+  std::vector<Probe> probes(windings_.size());
   for (const Vec3& share : kProbes) {
     const Vec3 q = times(share, cell.half);
     double nearest = kInfinity;
     for (const CellPlane& plane : planes_) nearest = std::min(nearest, std::fabs(plane.at(q)));
-    if (nearest > best) best = nearest, probe = q;
+    Probe& probe = probes[part_at(0, q)];
+    if (nearest > probe.distance) probe = {q, nearest};
   }
-  const uint32_t known = part_at(0, probe);
 
   // Sets of parts whose differences are known: each part's to its set's first (union-find).
   std::vector<uint32_t> set(windings_.size());
@@ -295,21 +337,36 @@ void LocalBsp::label(const Boundary& boundary, const CellBox& cell) {
     }
     return root;
   };
-  for (const Relation& relation : relations) {
-    const uint32_t front = find(relation.front), back = find(relation.back);
-    if (front == back) continue;
-    const int of_front = relation.front == front ? 0 : windings_[relation.front];
-    const int of_back = relation.back == back ? 0 : windings_[relation.back];
-    // w(back part) = w(front part) + jump.
-    set[back] = front;
-    windings_[back] = of_front + relation.jump - of_back;
+  const auto difference = [&](uint32_t part, uint32_t root) {
+    return part == root ? 0 : windings_[part];
+  };
+  for (const Node& node : nodes_) {
+    const uint32_t front = part_at(node.child[0], node.sample),
+                   back = part_at(node.child[1], node.sample);
+    const uint32_t front_root = find(front), back_root = find(back);
+    if (front_root == back_root) continue;
+    // w(back) = w(front) + jump.
+    const int sum = difference(front, front_root) + node.jump - difference(back, back_root);
+    set[back_root] = front_root;
+    windings_[back_root] = sum;
   }
-  const uint32_t root = find(known);
-  const int there = boundary.winding(cell.center + probe) - (known == root ? 0 : windings_[known]);
+
+  uint32_t best = 0;
+  for (uint32_t i = 1; i < probes.size(); ++i)
+    if (probes[i].distance > probes[best].distance) best = i;
   std::vector<int> result(windings_.size());
+  const auto look_up = [&](uint32_t part) {
+    return boundary.winding(cell.center + probes[part].at);
+  };
+  const uint32_t root = find(best);
+  const int of_root = look_up(best) - difference(best, root);
   for (uint32_t i = 0; i < set.size(); ++i) {
-    const uint32_t its = find(i);
-    result[i] = there + (its == i ? 0 : windings_[i]);
+    if (probes[i].distance > 4 * slack_) {
+      result[i] = look_up(i);
+    } else {
+      const uint32_t its = find(i);
+      result[i] = of_root + difference(i, its);
+    }
   }
   windings_ = std::move(result);
 }
@@ -431,8 +488,8 @@ void LocalBsp::write(bool negated) {
 
 std::span<const Token> LocalBsp::formula(const Unit& unit, const CellBox& cell, bool negated) {
   const Boundary& boundary = scene_.boundaries[unit.boundary];
-  slack_ = boundary.slack();
-  collect(boundary, cell, cell.half + Vec3{slack_, slack_, slack_});
+  measure_slack(boundary, cell);
+  collect(boundary, cell, cell.half);
   if (polygons_.empty()) {
     const bool value = is_inside(unit, cell) != negated;
     tokens_.assign(1, Token::make(value ? TokenKind::kAnd : TokenKind::kOr, 1));

@@ -64,7 +64,9 @@ class LocalBsp {
   /// A node's value once constants have gone.
   enum class Form : uint8_t { kFalse, kTrue, kBehind, kInFront, kAnd, kAndNot, kOr, kOrNot, kBoth };
 
-  uint32_t plane_of(uint32_t face, const CellBox& cell);
+  uint32_t plane_of(uint32_t face, std::span<const Vec3> polygon, const CellBox& cell);
+  double width_of(std::span<const Vec3> polygon) const;
+  void measure_slack(const Boundary& boundary, const CellBox& cell);
   void collect(const Boundary& boundary, const CellBox& cell, Vec3 reach);
   void clip(uint32_t axis, int sign, double limit);
   void build();
@@ -78,7 +80,8 @@ class LocalBsp {
   void write(bool negated);
 
   const Scene& scene_;
-  double slack_ = 0;  ///< corners are no farther from their planes than this
+  /// Corners are no farther from their planes than this: what is thinner tells nothing about sides.
+  double slack_ = 0;
   std::vector<CellPlane> planes_;
   std::vector<Vec3> corners_;
   std::vector<Polygon> polygons_;
