@@ -293,7 +293,9 @@ void Evaluator::close_resize(const Frame& frame, const Resize& how) {
     if (polygons.is_empty()) return;
     const Rect box = bounds(polygons);
     const Vec2 size = box.hi - box.lo;
-    give(frame, transformed(resize_map(how, {size.x, size.y, 0}), std::move(polygons)));
+    Resize in_plane = how;
+    in_plane.size.z = 0;
+    give(frame, transformed(resize_map(in_plane, {size.x, size.y, 0}), std::move(polygons)));
   } else {
     std::vector<CornerSet> sets = take_corners(frame);
     Box box;
