@@ -1,9 +1,6 @@
 #include "flat/outlines.h"
 
 namespace whittle {
-Result<Polygons> read_svg(std::string_view, const Import&, const Remark&) {
-  return Error{ErrorKind::kInput, "SVG is not read yet"};
-}
 Result<Polygons> read_dxf(std::string_view, const Import&, const Remark&) {
   return Error{ErrorKind::kInput, "DXF is not read yet"};
 }
