@@ -37,7 +37,7 @@ struct ClosedMesh {
 /// neighbours agree, most of them as they were. Parts that have an open edge are left out. If the
 /// volume of all is negative all is turned; a part of negative volume that no other is around is
 /// turned, too. Faces with a corner that is not finite, or farther away than 1e75, are not there.
-/// Linear, but for the faces that have thousands of corners.
+/// About n log n.
 ClosedMesh close_mesh(const RawMesh& raw, int digits);
 
 }  // namespace whittle
