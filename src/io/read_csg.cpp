@@ -22,8 +22,7 @@ Result<Read> read_csg(std::string_view text, const std::string& file_name,
                              .read_file = nullptr,
                              .solid_box = options.solid_box};
   if (options.folder) {
-    evaluating.read_file =
-        named_files(*options.folder, options.import_root, options.limits.bytes);
+    evaluating.read_file = named_files(*options.folder, options.import_root, options.limits.bytes);
   }
   Result<Model> model = evaluate(std::move(*document), evaluating, warnings);
   if (!model) return model.error();

@@ -66,6 +66,7 @@ class LocalBsp {
 
   uint32_t plane_of(uint32_t face, std::span<const Vec3> polygon, const CellBox& cell);
   double width_of(std::span<const Vec3> polygon) const;
+  void measure_slack(const Boundary& boundary, const CellBox& cell);
   void collect(const Boundary& boundary, const CellBox& cell, Vec3 reach);
   void clip(uint32_t axis, int sign, double limit);
   void build();
