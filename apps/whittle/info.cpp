@@ -149,7 +149,7 @@ int info_command(Arguments arguments) {
   line.add_required("FILE", file);
   OptionGroup(line.app(), "Output")
       .add_flag("--json", wants_json, "one JSON object, warnings in it");
-  add_loading_options(line.app(), loading);
+  add_loading_options(line, loading);
   if (const std::optional<int> code = line.parse(arguments)) return *code;
 
   if (wants_json) loading.quiet = true;

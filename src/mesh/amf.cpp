@@ -2,7 +2,7 @@
 
 #include "mesh/formats.h"
 #include "mesh/text_scanner.h"
-#include "mesh/xml_scanner.h"
+#include "base/xml_scanner.h"
 #include "mesh/zip_archive.h"
 
 namespace whittle {

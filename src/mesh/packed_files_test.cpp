@@ -4,7 +4,7 @@
 #include "base/box.h"
 #include "mesh/close_mesh.h"
 #include "mesh/mesh_files.h"
-#include "mesh/xml_scanner.h"
+#include "base/xml_scanner.h"
 #include "mesh/zip_archive.h"
 #include "mesh/zip_for_test.h"
 

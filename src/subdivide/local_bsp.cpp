@@ -228,6 +228,7 @@ void LocalBsp::divide(std::span<const uint32_t> polygons, uint32_t plane, Node& 
         const double worth = std::min(nearest, width);
         if (worth > best) {
           best = worth;
+          node.room = worth;
           node.sample = p;
           node.jump = polygon.outward;
         }
@@ -281,7 +282,7 @@ void LocalBsp::build() {
       self = uint32_t(nodes_.size());
       list_.assign(lists_.begin() + part.first, lists_.begin() + part.last);
       lists_.resize(part.first);
-      Node node{choose(list_), {0, 0}, {}, 0};
+      Node node{choose(list_), {0, 0}, {}, 0, 0};
       divide(list_, node.plane, node);
       nodes_.push_back(node);
       const auto from = uint32_t(lists_.size());
@@ -302,10 +303,10 @@ uint32_t LocalBsp::part_at(uint32_t node, Vec3 q) const {
   return node & ~kPart;
 }
 
-/// The parts that one of many points of the cell lies in are looked up in the whole boundary. The
-/// rest, which are small, follow from their neighbours: every node tells by how much the winding
-/// numbers differ of two parts, one on either side of its sample, and so its n - 1 nodes relate n
-/// parts.
+/// The parts that have a point well inside are looked up in the whole boundary there: points all
+/// over the cell, and points on both sides of every node's sample. The rest, which are thin, follow
+/// from their neighbours: every node tells by how much the winding numbers differ of two parts, one
+/// on either side of its sample, and so its n - 1 nodes relate n parts.
 void LocalBsp::label(const Boundary& boundary, const CellBox& cell) {
   struct Probe {
     Vec3 at;
@@ -319,6 +320,12 @@ void LocalBsp::label(const Boundary& boundary, const CellBox& cell) {
     Probe& probe = probes[part_at(0, q)];
     if (nearest > probe.distance) probe = {q, nearest};
   }
+  for (const Node& node : nodes_)
+    for (const double side : {0.5, -0.5}) {
+      const Vec3 q = node.sample + planes_[node.plane].n * (side * node.room);
+      Probe& probe = probes[part_at(0, q)];
+      if (node.room / 2 > probe.distance) probe = {q, node.room / 2};
+    }
 
   // Sets of parts whose differences are known: each part's to its set's first (union-find).
   std::vector<uint32_t> set(windings_.size());

@@ -57,7 +57,8 @@ class LocalBsp {
   struct Node {
     uint32_t plane;
     uint32_t child[2];
-    Vec3 sample;  ///< a point of one of its polygons
+    Vec3 sample;  ///< a point of one of its polygons,
+    double room;  ///< and how far that is from the polygon's edges and from all other planes
     int jump;     ///< by how much the winding number grows through it, from front to back
   };
   static constexpr uint32_t kPart = 1u << 31;

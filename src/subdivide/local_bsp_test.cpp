@@ -16,17 +16,13 @@ namespace whittle {
 namespace {
 
 /// Coordinates as six digits give them.
-TriangleMesh printed(TriangleMesh mesh) {
-  for (Vec3& p : mesh.points)
-    for (int axis = 0; axis < 3; ++axis) p[axis] = std::round(p[axis] * 1e5) / 1e5;
-  return mesh;
+TriangleMesh printed(const TriangleMesh& mesh) {
+  return changed(mesh, [](double x) { return std::round(x * 1e5) / 1e5; });
 }
 
 /// Corners in the middle, in the middle of halves and so on: where cells are cut.
-TriangleMesh on_cuts(TriangleMesh mesh) {
-  for (Vec3& p : mesh.points)
-    for (int axis = 0; axis < 3; ++axis) p[axis] = std::round(p[axis] * 4) / 4;
-  return mesh;
+TriangleMesh on_cuts(const TriangleMesh& mesh) {
+  return changed(mesh, [](double x) { return std::round(x * 4) / 4; });
 }
 
 std::vector<TriangleMesh> meshes() {
@@ -65,6 +61,7 @@ TEST_P(LocalBspOf, RandomCellsSaysWhatTheWindingNumberSays) {
   const UnitBoxes boxes(*scene);
   Simplifier simplifier(*scene, boxes, 1e-10 * max_component(scene->region.size()));
   const double tell = 20 * scene->boundaries[0].slack();
+  LocalBsp bsp(*scene);
   std::mt19937 random(uint32_t(GetParam()) + 1);
   std::uniform_real_distribution<double> share(0, 1);
   Formula formula;
@@ -78,6 +75,8 @@ TEST_P(LocalBspOf, RandomCellsSaysWhatTheWindingNumberSays) {
       const double at = cell.lo[k % 3] + cut * cell.size()[k % 3];
       (share(random) < 0.5 ? cell.lo : cell.hi)[k % 3] = at;
     }
+    // Crowds are split before anything is made of them.
+    if (bsp.count(scene->units[0], CellBox(cell, 0)) == LocalBsp::kTooMany) continue;
     const Truth truth = simplifier.simplify(scene->formula, cell, Expand::kAll, formula);
     varied += truth == Truth::kVaries;
     for (const Token token : formula) EXPECT_NE(token.kind(), TokenKind::kUnit);
@@ -93,8 +92,8 @@ TEST_P(LocalBspOf, RandomCellsSaysWhatTheWindingNumberSays) {
           << "cell " << i << " at " << p.x << ' ' << p.y << ' ' << p.z;
     }
   }
-  EXPECT_GT(asked, 30000);
-  EXPECT_GT(varied, 500);
+  EXPECT_GT(asked, 20000);
+  EXPECT_GT(varied, 50);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LocalBspOf, testing::Range<size_t>(0, 10));
@@ -139,7 +138,7 @@ TEST(LocalBsp, AnEdgeIsTwoLiterals) {
   const CellBox inside({{-1, -1, -1}, {1, 1, 1}}, 0);
   EXPECT_EQ(bsp.count(unit, inside), 0u);
   EXPECT_TRUE(bsp.is_inside(unit, inside));
-  EXPECT_EQ(bsp.count(unit, CellBox(scene->region, 0)), 6u);
+  EXPECT_EQ(bsp.count(unit, CellBox(scene->region, 0)), LocalBsp::kTooMany);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "mesh/xml_scanner.h"
+#include "base/xml_scanner.h"
 
 #include <algorithm>
 
@@ -15,7 +15,7 @@ bool ends_name(char c) {
 
 }  // namespace
 
-XmlScanner::XmlScanner(std::string_view content) : rest_(content) {
+XmlScanner::XmlScanner(std::string_view content) : rest_(content), tag_(content.data()) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (is_at(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
 }
@@ -34,9 +34,9 @@ bool XmlScanner::skip_behind(std::string_view mark) {
 
 std::string_view XmlScanner::take_name() {
   const auto* const end = std::ranges::find_if(rest_, ends_name);
-  std::string_view name = rest_.substr(0, size_t(end - rest_.begin()));
-  rest_.remove_prefix(name.size());
-  return name.substr(name.find(':') + 1);
+  full_name_ = rest_.substr(0, size_t(end - rest_.begin()));
+  rest_.remove_prefix(full_name_.size());
+  return full_name_.substr(full_name_.find(':') + 1);
 }
 
 bool XmlScanner::next_attribute(Attribute& attribute) {
@@ -49,6 +49,7 @@ bool XmlScanner::next_attribute(Attribute& attribute) {
     return false;
   }
   attribute.name = take_name();
+  attribute.full_name = full_name_;
   skip_space();
   is_broken_ = true;
   if (attribute.name.empty() || !is_at("=")) return in_tag_ = false;
@@ -64,6 +65,7 @@ bool XmlScanner::next_attribute(Attribute& attribute) {
 }
 
 XmlScanner::Event XmlScanner::tag() {
+  const char* const begin = rest_.data();
   rest_.remove_prefix(1);
   if (is_at("/")) {
     rest_.remove_prefix(1);
@@ -76,6 +78,7 @@ XmlScanner::Event XmlScanner::tag() {
   }
   name_ = take_name();
   if (name_.empty()) return Event::kMistake;
+  tag_ = begin;
   ++depth_;
   in_tag_ = true;
   is_empty_ = false;

@@ -27,9 +27,13 @@ class XmlScanner {
 
   struct Attribute {
     std::string_view name, value;
+    std::string_view full_name;  ///< with its prefix, if it has one
   };
   /// The next attribute of the element just opened; false: there are no more.
   bool next_attribute(Attribute& attribute);
+
+  /// The content from the last opened element's tag on.
+  std::string_view from_tag() const { return {tag_, size_t(rest_.data() + rest_.size() - tag_)}; }
 
  private:
   Event tag();
@@ -38,7 +42,8 @@ class XmlScanner {
   std::string_view take_name();
   bool is_at(std::string_view mark) const { return rest_.starts_with(mark); }
 
-  std::string_view rest_, name_, text_;
+  std::string_view rest_, name_, full_name_, text_;
+  const char* tag_;  ///< of the last opened element, in the content
   size_t depth_ = 0;
   bool in_tag_ = false;    ///< of an element just opened, whose attributes may follow
   bool is_empty_ = false;  ///< the element just opened has no content: `<a/>`
