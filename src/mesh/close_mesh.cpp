@@ -16,9 +16,6 @@
 namespace whittle {
 namespace {
 
-/// Products of three coordinates beyond this are no numbers any more.
-constexpr double kFarthest = 1e75;
-
 bool is_near(Vec3 p) {
   return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest && std::fabs(p.z) <= kFarthest;
 }
