@@ -25,11 +25,11 @@ const std::string* Files::content(const std::string& file, SourceLocation where)
   }
   const auto [found, is_new] = flat_.try_emplace(file);
   if (!is_new) return &found->second;
-  const auto refuse = [&](const std::string& why) {
+  const auto refuse = [&, place = found](const std::string& why) {
     warnings_.add_unsupported(kKindUnread, where,
                               fmt::format("{}: {}; nothing is shown for it", printable(file), why),
                               fmt::format("{}: {}", printable(file), why));
-    flat_.erase(found);
+    flat_.erase(place);
     return nullptr;
   };
   if (!options_.read_file) return refuse("files are not read here");
