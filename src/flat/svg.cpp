@@ -2,6 +2,8 @@
 // filled whatever their style says, open lines are the areas of their strokes.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <string>
@@ -79,6 +81,13 @@ SvgStroke stroke_of(const Attributes& attributes) {
   if (cap == "butt") stroke.cap = SvgCap::kButt;
   if (cap == "round") stroke.cap = SvgCap::kRound;
   return stroke;
+}
+
+/// With six digits.
+double as_printed(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return std::strtod(text, nullptr);
 }
 
 /// The contours of a shape, each of which may cross itself and the others.
@@ -261,10 +270,15 @@ class SvgReader {
     if (!(r.x > 0)) r.x = std::max(r.y, 0.0);
     if (!(r.y > 0)) r.y = r.x;
     r = {std::min(r.x, size.x / 2), std::min(r.y, size.y / 2)};
-    if (!(r.x > 0 && r.y > 0)) r = {};
+    const bool is_round = r.x > 0 && r.y > 0;
+    if (!is_round) r = {};
+    // OpenSCAD writes round ones down as path data first; the number of steps hangs on that.
+    const auto written = [&](Vec2 p) {
+      return is_round ? Vec2{as_printed(p.x), as_printed(p.y)} : p;
+    };
     const auto corner = [&](Vec2 from, Vec2 to) {
-      pen.line_to(from);
-      pen.arc_to({.radii = r, .is_positive = true}, to);
+      pen.line_to(written(from));
+      pen.arc_to({.radii = written(r), .is_positive = true}, written(to));
     };
     corner({hi.x - r.x, lo.y}, {hi.x, lo.y + r.y});
     corner({hi.x, hi.y - r.y}, {hi.x - r.x, hi.y});
