@@ -14,11 +14,12 @@
 #include "flat/outlines.h"
 #include "flat/svg_pen.h"
 #include "flat/svg_values.h"
+#include "flat/sweep_work.h"
 
 namespace whittle {
 namespace {
 
-constexpr size_t kMostCorners = 4'000'000;
+constexpr size_t kMostCorners = 1'000'000;
 
 /// `use` within `use`, and how many elements may be drawn by it in all: either could have no end.
 constexpr size_t kDeepestUse = 16, kMostUsed = 1'000'000;
@@ -297,18 +298,25 @@ class SvgReader {
   }
 
   /// All shapes on the page, y up.
-  Polygons placed() {
+  Result<Polygons> placed() {
     Vec2 shift{-page_.align.x, page_.size.y - page_.align.y};
     if (how_.center) shift = center();
     std::vector<Polygons> all;
     all.reserve(shapes_.size());
+    Shape outlines;
+    uint64_t work = 0;
+    const Error too_much{ErrorKind::kInput, "it has too many lines across one another"};
     for (Shape& shape : shapes_) {
       for (Contour& contour : shape)
         for (Vec2& p : contour)
           p = {page_.scale.x * (p.x - page_.view.x) - shift.x,
                shift.y - page_.scale.y * (p.y + page_.view.y)};
+      work += estimate_sweep_work(shape);
+      if (work > kMostSweepWork) return too_much;
       all.push_back(even_odd(shape));
+      for (const Contour& contour : all.back().contours) outlines.push_back(contour);
     }
+    if (work + estimate_sweep_work(outlines) > kMostSweepWork) return too_much;
     return unite(all);
   }
 

@@ -153,7 +153,7 @@ void SvgPen::keep_stroke_if_open() {
 
 void SvgPen::keep_stroke() {
   const Contour line = std::exchange(contour_, {});
-  if (line.empty() || !(stroke_.width < kWidest)) return;
+  if (line.empty() || is_full_ || !(stroke_.width < kWidest)) return;
   ClipperLib::Path path;
   path.reserve(line.size());
   for (const Vec2 p : line) {
