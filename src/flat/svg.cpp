@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -181,8 +182,8 @@ class SvgReader {
       if (name == "svg") page_ = page();
       if (frame.is_selected && is_shape) draw(name, frame.map);
       if (frame.is_selected && (name == "text" || name == "image"))
-        remark_("text and pictures in an SVG file are left out",
-                "text and pictures in it are left out");
+        say("text and pictures in an SVG file are left out",
+            "text and pictures in it are left out");
       if (name == "use") {
         frame.map = frame.map * SvgMap{.e = number("x"), .f = number("y")};
         frames_.push_back(frame);
@@ -196,6 +197,11 @@ class SvgReader {
   void close() {
     frames_.pop_back();
     if (sources_.back().floor != 0 && frames_.size() == sources_.back().floor) sources_.pop_back();
+  }
+
+  /// Once a file.
+  void say(const char* kind, const char* message) {
+    if (said_.insert(kind).second) remark_(kind, message);
   }
 
   void select(Frame& frame) {
@@ -223,11 +229,11 @@ class SvgReader {
     return std::ranges::find(kShapes, name) != std::end(kShapes);
   }
 
-  double number(std::string_view name) const {
+  double number(std::string_view name) {
     const std::string_view text = attributes_.get(name);
     if (!text.empty() && !is_svg_number(text))
-      remark_("lengths with a unit in an SVG file count as 0, as in OpenSCAD",
-              "lengths with a unit in it count as 0, as in OpenSCAD");
+      say("lengths with a unit in an SVG file count as 0, as in OpenSCAD",
+          "lengths with a unit in it count as 0, as in OpenSCAD");
     return svg_number(text);
   }
 
@@ -264,7 +270,7 @@ class SvgReader {
     if (!shape.empty()) shapes_.push_back(std::move(shape));
   }
 
-  void rectangle(SvgPen& pen) const {
+  void rectangle(SvgPen& pen) {
     const Vec2 lo{number("x"), number("y")}, size{number("width"), number("height")};
     const Vec2 hi = lo + size;
     Vec2 r{number("rx"), number("ry")};
@@ -342,6 +348,7 @@ class SvgReader {
   std::vector<Source> sources_;
   std::vector<Frame> frames_;
   Attributes attributes_;  ///< of the element that was opened last
+  std::set<std::string> said_;
   size_t used_ = 0, left_ = kMostCorners;
   SvgPage page_;
   std::vector<Shape> shapes_;

@@ -234,7 +234,7 @@ TEST_F(Svg, IdsAndLayersAreChosen) {
 }
 
 TEST_F(Svg, WhatIsNotDrawnIsSaid) {
-  EXPECT_TRUE(read(svg("<text x='1' y='2'>a</text>")).is_empty());
+  EXPECT_TRUE(read(svg("<text x='1' y='2'>a</text><image/>")).is_empty());
   EXPECT_EQ(remarks, std::vector<std::string>{"text and pictures in it are left out"});
   EXPECT_TRUE(read(svg("<rect width='100%' height='1'/>")).is_empty());
   EXPECT_EQ(remarks,
