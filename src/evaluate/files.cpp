@@ -38,7 +38,7 @@ const std::string* Files::content(const std::string& file, SourceLocation where)
   if (!*content) {
     warnings_.add("there is no file of this name; nothing is shown for it", where,
                   fmt::format("there is no file {}; nothing is shown for it", printable(file)));
-    flat_.erase(found);
+    flat_.erase(file);
     return nullptr;
   }
   found->second = std::move(**content);
