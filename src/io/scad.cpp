@@ -168,7 +168,8 @@ Result<Flattened> flatten_scad(const std::string& path, const FlattenOptions& op
   flattened.files = files_read(path, *source, *folder);
   flattened.view =
       take_view(flattened.messages, assigned_views(*source_text, flattened.files, options));
-  if (std::optional<Error> error_said = first_error(flattened.messages, path, *source)) {
+  if (std::optional<Error> error_said =
+          first_error(flattened.messages, path, *source, *source_text)) {
     return *std::move(error_said);
   }
   Result<std::string> text = read_text(folder->csg());
