@@ -24,10 +24,10 @@ constexpr CommandHelp kHelp = {
     "  whittle info part.csg --json | jq .half_spaces\n\n"
     "Exit codes: 0 done, 1 bad input, 2 bad usage, 3 refused by the machine."};
 
-constexpr std::array<const char*, 6> kNodeNames = {"union",     "difference", "intersection",
-                                                   "transform", "color",      "primitive"};
+constexpr std::array<const char*, 7> kNodeNames = {
+    "union", "difference", "intersection", "transform", "color", "primitive", "body"};
 constexpr std::array<const char*, std::variant_size_v<Shape>> kShapeNames = {
-    "cube", "sphere", "cylinder", "polyhedron", "halfspace"};
+    "cube", "sphere", "cylinder", "polyhedron", "halfspace", "mesh"};
 
 struct Info {
   std::array<size_t, kNodeNames.size()> nodes{};

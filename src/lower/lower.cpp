@@ -16,7 +16,15 @@ namespace {
 /// boxes around its facets would save nothing.
 constexpr uint32_t kManyFaces = 12;
 
-/// Merging may move a face by its joint tolerance; margins are a little more than that.
+/// Bodies that are made of numbers, so that their faces lie where their boxes say.
+bool is_exact(const Shape& shape) {
+  return std::holds_alternative<Cube>(shape) || std::holds_alternative<Sphere>(shape) ||
+         std::holds_alternative<Cylinder>(shape);
+}
+
+/// Corners move by more than the faces that meet there.
+constexpr double kCornersMore = 10;
+
 Box grown(const Box& box, double margin) {
   const Vec3 all{margin, margin, margin};
   return {box.lo - all, box.hi + all};
@@ -42,11 +50,13 @@ void grow_face_boxes(const Unit& unit, double share, double more, Scene& scene) 
 /// Merging may move a plane by the tolerance, and so a facet's corner by much more where it meets
 /// its neighbours at small angles. So may the digits of a file, but for bodies that are made of
 /// numbers. Boxes that are too large only cost time.
-void grow_for_moved_planes(const Unit& unit, Scene& scene) {
-  grow_face_boxes(unit, 0.05, 10 * scene.tolerance, scene);
+void grow_for_moved_planes(const Unit& unit, double moved, Scene& scene) {
+  grow_face_boxes(unit, 0.05, kCornersMore * moved, scene);
 }
 
-void add_face_boxes(const Shape& shape, const Affine& local_from_object, Unit& unit, Scene& scene) {
+/// `moved`: by how much merging may move a face of it.
+void add_face_boxes(const Shape& shape, const Affine& local_from_object, double moved, Unit& unit,
+                    Scene& scene) {
   const std::vector<Box> boxes = facet_boxes(shape, {});
   if (boxes.size() != unit.face_count) return;
   unit.first_box = uint32_t(scene.face_boxes.size());
@@ -56,21 +66,28 @@ void add_face_boxes(const Shape& shape, const Affine& local_from_object, Unit& u
   if (std::holds_alternative<Sphere>(shape) || std::holds_alternative<Cylinder>(shape))
     grow_face_boxes(unit, 1e-4, 0, scene);
   else
-    grow_for_moved_planes(unit, scene);
+    grow_for_moved_planes(unit, moved, scene);
 }
 
-/// Once faces have their half-spaces, which are numbered in the order of the faces: one that does
-/// not bring the next new one lies on an earlier one.
-void grow_moved_face_boxes(Scene& scene) {
+/// Gives faces their half-spaces. Those are numbered in the order of the faces: one that does not
+/// bring the next new one lies on an earlier one, and its primitive's boxes grow by as much as that
+/// may have moved it.
+void take_half_spaces(FaceMerger::Merged merged, Scene& scene) {
+  scene.half_spaces = std::move(merged.half_spaces);
   uint32_t next = 0;
-  for (const Unit& unit : scene.units) {
+  for (Unit& unit : scene.units) {
     bool moved = false;
+    float by = 0;
     for (uint32_t k = 0; k < unit.face_count; ++k) {
-      const bool is_new = scene.faces[unit.first_face + k].literal == 2 * next;
+      Literal& literal = scene.faces[unit.first_face + k].literal;
+      by = std::max(by, merged.moved[literal >> 1]);
+      literal = merged.literals[literal >> 1] ^ (literal & 1);
+      const bool is_new = literal == 2 * next;
       next += is_new;
       moved |= !is_new;
     }
-    if (moved && unit.first_box != Unit::kNoBoxes) grow_for_moved_planes(unit, scene);
+    if (by > 0) unit.outer = grown(unit.outer, kCornersMore * by);
+    if (moved && unit.first_box != Unit::kNoBoxes) grow_for_moved_planes(unit, by, scene);
   }
 }
 
@@ -291,12 +308,18 @@ Result<Scene> lower(const Model& model) {
       scene.boundaries.emplace_back(*mesh->surface, local_from_mesh, unit.first_face);
     }
     unit.face_count = uint32_t(scene.faces.size()) - unit.first_face;
-    if (unit.face_count > 0)
-      unit.outer = grown(transform(local_from_world, instance_box(model, instance)), 10 * moved);
+    if (unit.face_count > 0) {
+      // What moves a body's faces further is known once all are there.
+      const double off =
+          is_exact(primitive.shape) ? equal_tolerance(tolerance, least_tolerance) : moved;
+      unit.outer =
+          grown(transform(local_from_world, instance_box(model, instance)), kCornersMore * off);
+    }
     if (unit.is_conjunction() && unit.face_count >= kManyFaces) {
       unit.inner_center = lowered.extent.center;
       unit.inner_radius = std::max(0.0, lowered.extent.width / 2 - moved);
-      add_face_boxes(primitive.shape, local_from_world * instance.world_from_object, unit, scene);
+      add_face_boxes(primitive.shape, local_from_world * instance.world_from_object, moved, unit,
+                     scene);
     }
     if (scene.faces.size() >= Token::kMaxPayload) return too_large();
     unit_of_node[instance.node] = number;
@@ -304,11 +327,7 @@ Result<Scene> lower(const Model& model) {
   }
   lowered = {};
   Outlines outlines(model, scene);
-  FaceMerger::Merged merged = merger.merge([&](uint32_t surface) { return outlines.of(surface); });
-  scene.half_spaces = std::move(merged.half_spaces);
-  for (Face& face : scene.faces)
-    face.literal = merged.literals[face.literal >> 1] ^ (face.literal & 1);
-  grow_moved_face_boxes(scene);
+  take_half_spaces(merger.merge([&](uint32_t surface) { return outlines.of(surface); }), scene);
   measure_slacks(scene, least_tolerance);
   if (!FormulaBuilder(model, unit_of_node, scene).build()) return too_large();
   return scene;

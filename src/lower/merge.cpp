@@ -40,6 +40,7 @@ FaceMerger::Merged FaceMerger::merge(const Outlines& outlines) {
   Merged merged;
   merged.half_spaces = table_.take();
   merged.literals.reserve(written_.size());
+  merged.moved.assign(written_.size(), 0);
   // Only those that may lie on others are looked at; the rest keep their order among them.
   HalfSpaceTable table(max_component(region_.size()) / 2, tolerance_);
   std::vector<uint32_t> number_of;  // of those in the table
@@ -61,6 +62,7 @@ FaceMerger::Merged FaceMerger::merge(const Outlines& outlines) {
       if (literal >> 1 == number_of.size()) number_of.push_back(count);
       number = number_of[literal >> 1];
       side = literal & 1;
+      if (number != count) merged.moved[i] = float(all.tolerance);
     }
     if (number == count) merged.half_spaces[count++] = half_space;
     merged.literals.push_back(Literal(number) * 2 + side);

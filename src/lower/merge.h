@@ -27,7 +27,8 @@ class FaceMerger {
 
   struct Merged {
     std::vector<HalfSpace> half_spaces;
-    std::vector<Literal> literals;  ///< for every surface as it was written: what it is now
+    std::vector<Literal> literals;  ///< for every surface as it was written: what it is now,
+    std::vector<float> moved;       ///< and by how much that may differ, where its primitives are
   };
   /// The outline of all faces that were written on one curved surface, see Outline.
   using Outlines = std::function<Outline(uint32_t surface)>;

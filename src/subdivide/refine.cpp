@@ -78,6 +78,7 @@ Refiner::Refiner(const Scene& scene, const UnitBoxes& boxes, const SubdivideSett
       has_threshold_(bool(settings.is_small)),
       region_edge_(max_component(scene.region.size())),
       simplifier_(scene, boxes, region_edge_ * settings.margin),
+      box_cutter_(scene, region_edge_ * settings.margin),
       analysis_(scene) {}
 
 CellLink Refiner::refined(const Cell& cell, const Helpers* helpers) {
@@ -149,16 +150,20 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
   const double edge = max_component(open.box.size()) / region_edge_;
   const Box world{open.box.lo + scene_.origin, open.box.hi + scene_.origin};
   const bool small = settings_.is_small && settings_.is_small(world);
-  const double rays = edge * edge * settings_.rays;
+  static const double zoom = getenv("ZOOM") ? atof(getenv("ZOOM")) : 1;
+  const double rays = edge * edge * settings_.rays * zoom * zoom;
   const bool is_auto = settings_.leaf_size == kAutoLeafSize;
+  // At 512 x 512 rays this is the smallest edge that others have.
+  constexpr double kFewestRays = 1.0 / 1024;
   const bool useless = !has_threshold_ &&
                        (is_auto ? !pays_off(open.literals, rays)
                                 : edge * edge * open.literals < settings_.least_use) &&
                        !open.is_crowded;
   const size_t split_bytes = 2 * (sizeof(Cell) + bytes_unsplit(open.literals, open.token_count));
-  const bool must_end_anyway = useless || edge * 0.5 < settings_.smallest_edge ||
-                               open.stalled >= stall_limit(open.literals) ||
-                               open.depth >= kMostDepth || open.memory < split_bytes;
+  const bool must_end_anyway =
+      useless || (is_auto ? rays * 0.25 < kFewestRays : edge * 0.5 < settings_.smallest_edge) ||
+      open.stalled >= stall_limit(open.literals) || open.depth >= kMostDepth ||
+      open.memory < split_bytes;
   const bool must_end = small || must_end_anyway;
   std::span<const Token> formula = open.tokens();
   // To split a crowd of triangles takes much less than to make a formula of them.
@@ -216,16 +221,14 @@ CellLink Refiner::leaf() {
   return link;
 }
 
-/// Cuts a cell along an axis.
-void Refiner::halve(const OpenCell& parent, int axis, Halves& halves) {
-  halves.axis = axis;
-  halves.at = parent.box.center()[axis];
+void Refiner::halve(const OpenCell& parent, Cut cut, Halves& halves) {
+  halves.cut = cut;
   halves.cost = 0;
   for (int side = 0; side < 2; ++side) {
     OpenCell& part = halves.part[side];
     part = {};
     part.box = parent.box;
-    (side == 0 ? part.box.hi : part.box.lo)[axis] = halves.at;
+    (side == 0 ? part.box.hi : part.box.lo)[cut.axis] = cut.at;
     stats_.classified += parent.token_count;
     halves.truth[side] = simplifier_.simplify(parent.tokens(), part.box, expand_of(parent.literals),
                                               halves.formula[side]);
@@ -239,10 +242,14 @@ void Refiner::halve(const OpenCell& parent, int axis, Halves& halves) {
 
 CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
   const int first = split_axis(parent.box.size(), settings_.split, parent.depth);
-  halve(parent, first, halves_);
+  const Vec3 middle = parent.box.center();
+  Cut cut{first, middle[first]};
+  if (settings_.split == SplitRule::kLongest)
+    cut = box_cutter_.cut(parent.tokens(), parent.box, cut).value_or(cut);
+  halve(parent, cut, halves_);
   for (int axis = 0; axis < 3 && settings_.split == SplitRule::kCost; ++axis) {
     if (axis == first) continue;
-    halve(parent, axis, others_);
+    halve(parent, {axis, middle[axis]}, others_);
     if (others_.cost < halves_.cost) std::swap(others_, halves_);
   }
   size_t unsplit[2] = {0, 0}, weight[2] = {0, 0};
@@ -271,8 +278,8 @@ CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
     cells[side].bits.store(link.bits(), std::memory_order_relaxed);
     ++stats_.cells[size_t(link.kind())];
   }
-  cell.split = halves_.at;
-  return {CellKind::kNode, cells, halves_.axis};
+  cell.split = halves_.cut.at;
+  return {CellKind::kNode, cells, halves_.cut.axis};
 }
 
 /// Whether the cell is worth splitting many times at once. Where small cells end early, each split

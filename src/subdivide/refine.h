@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/arena.h"
+#include "subdivide/box_cut.h"
 #include "subdivide/leaf.h"
 #include "subdivide/simplify.h"
 #include "subdivide/subdivide.h"
@@ -94,16 +95,15 @@ class Refiner {
   size_t bytes_unsplit(size_t literals, size_t tokens) const;
   bool keep_formula(const Cell& cell, CellLink open) const;
   size_t bytes_of_pair() const { return has_threshold_ ? sizeof(CellPair) : 2 * sizeof(Cell); }
-  /// The two parts of a cell cut in the middle: boxes, truths, formulas.
+  /// The two parts of a cell that is cut: boxes, truths, formulas.
   struct Halves {
-    int axis = 0;
-    double at = 0;
+    Cut cut;
     OpenCell part[2] = {};
     Truth truth[2] = {};
     Formula formula[2];
     double cost = 0;  ///< literals that a ray through the parent will meet, up to a factor
   };
-  void halve(const OpenCell& parent, int axis, Halves& halves);
+  void halve(const OpenCell& parent, Cut cut, Halves& halves);
   CellLink split(const Cell& cell, const OpenCell& open);
   CellLink leaf();
   bool has_few_half_spaces(std::span<const Token> formula) const;
@@ -129,6 +129,7 @@ class Refiner {
   Arena cells_, leaves_;
   BlockPool open_cells_;
   Simplifier simplifier_;
+  BoxCutter box_cutter_;
   LeafAnalysis analysis_;
   Halves halves_, others_;
   Formula expanded_;

@@ -43,7 +43,7 @@ using IsSmall = std::function<bool(const Box&)>;
 
 /// Far above the rounding of a ray's entry and exit in double (1e-15), far below anything seen. It
 /// puts a surface that lies exactly on a split into both cells, so no ray slips between them.
-inline constexpr double kCellMargin = 1e-10;
+inline constexpr double kCellMargin = 1e-12;
 
 struct SubdivideSettings {
   /// Half-spaces (or primitives) that a leaf may hold, or kAutoLeafSize.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "subdivide/reach.h"
+
 namespace whittle {
 namespace {
 
@@ -12,42 +14,9 @@ constexpr size_t kChunk = 4096;
 /// With more than this, on the average, for each operand, boxes do not tell them apart.
 constexpr size_t kMostPartsEach = 12;
 
-/// Of an operand: outside of the box its value is known.
-struct Reach {
-  Box box;
-  bool outside;  ///< that value
-};
-
 /// The tokens of one operand of the outermost group.
 struct Tokens {
   uint32_t first, count;
-};
-
-Reach reach_of(const Scene& scene, Token token) {
-  const uint32_t unit =
-      token.kind() == TokenKind::kFace ? scene.faces[token.payload()].unit : token.payload();
-  return {scene.units[unit].outer, token.negated()};
-}
-
-/// A conjunction is false outside of what its operands that are false outside have in common; if
-/// there are none, it is true outside of all. A disjunction the other way round.
-class ReachOfGroup {
- public:
-  explicit ReachOfGroup(TokenKind kind) : absorbing_(kind == TokenKind::kOr) {}
-
-  void add(const Reach& operand) {
-    if (operand.outside == absorbing_) {
-      common_ = any_ ? intersect(common_, operand.box) : operand.box;
-      any_ = true;
-    } else {
-      all_ = unite(all_, operand.box);
-    }
-  }
-  Reach result() const { return any_ ? Reach{common_, absorbing_} : Reach{all_, !absorbing_}; }
-
- private:
-  bool absorbing_, any_ = false;
-  Box common_, all_;
 };
 
 Reach reach_of(const Scene& scene, std::span<const Token> operand) {

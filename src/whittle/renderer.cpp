@@ -15,12 +15,18 @@
 #include "model/instances.h"
 #include "subdivide/solid_bounds.h"
 #include "subdivide/threshold.h"
+#include "trace/closeness.h"
 #include "trace/oracle/oracle.h"
 #include "trace/pixel_threshold.h"
 #include "trace/vulkan/raster.h"
 
 namespace whittle {
-namespace {}  // namespace
+namespace {
+
+/// A point that touches the eye needs no endless number of them.
+constexpr double kMostRays = 1e24;
+
+}  // namespace
 
 Status check_picture_size(int64_t width, int64_t height) {
   if (width >= 1 && height >= 1 && width <= kMostSide && height <= kMostSide &&
@@ -48,7 +54,10 @@ struct Renderer::State {
   Scene scene;
   std::optional<CutFaces> cut_faces;  ///< made when a style first asks
   std::optional<CellTree> cells;
-  Camera cells_camera;  ///< which cells are small for it, if there is a pixel threshold
+  Camera cells_camera;    ///< which cells are small for it, if there is a pixel threshold
+  double cells_rays = 0;  ///< for how many rays they were made
+  std::optional<Camera> looked_from;  ///< the last camera that was asked how closely it looks
+  std::unique_ptr<Tracer> scout;      ///< made when a camera may look more closely
   std::unique_ptr<Tracer> tracer;
   CpuTracer* cpu = nullptr;        ///< the tracer, if it is that one
   RasterTracer* raster = nullptr;  ///< or that one
@@ -61,9 +70,14 @@ struct Renderer::State {
       : model(model_), settings(settings_), workers(settings_.threads) {}
 
   Status choose_backend();
+  /// For as many rays as the camera has, or more if it looks closely at a part.
   Status make_tracer(const Camera& camera);
-  /// With a pixel threshold: makes the cells what they are for another camera.
+  Status make_tracer(const Camera& camera, double rays);
+  /// With a pixel threshold: makes the cells what they are for another camera. And makes finer ones
+  /// for one that looks more closely.
   Status look_from(const Camera& camera);
+  Status move_threshold_to(const Camera& camera);
+  Status look_closely(const Camera& camera);
   /// Gives back what make_tracer() made.
   void discard();
   /// After a refusal: true if the CPU goes on, else the refusal stands.
@@ -132,10 +146,17 @@ void Renderer::State::discard() {
   tracer.reset();
   cpu = nullptr;
   raster = nullptr;
+  scout.reset();
+  looked_from.reset();
   cells.reset();
 }
 
 Status Renderer::State::make_tracer(const Camera& camera) {
+  const Status made = make_tracer(camera, double(camera.width) * double(camera.height));
+  return made ? look_closely(camera) : made;
+}
+
+Status Renderer::State::make_tracer(const Camera& camera, double rays) {
   discard();
   if (settings.backend == Backend::kOracle) {
     tracer = make_oracle_tracer(model, settings.threads);
@@ -143,7 +164,7 @@ Status Renderer::State::make_tracer(const Camera& camera) {
   }
   const Stopwatch watch;
   SubdivideSettings subdivision = settings.subdivide;
-  subdivision.rays = double(camera.width) * double(camera.height);
+  subdivision.rays = cells_rays = rays;
   if (settings.pixel_threshold > 0)
     subdivision.is_small = PixelThreshold(camera, settings.pixel_threshold);
   const bool is_raster = settings.backend == Backend::kVulkanRaster;
@@ -176,6 +197,31 @@ Status Renderer::State::make_tracer(const Camera& camera) {
 }
 
 Status Renderer::State::look_from(const Camera& camera) {
+  const Status moved = move_threshold_to(camera);
+  return moved ? look_closely(camera) : moved;
+}
+
+/// Cells that were made for a whole model are too large for a small part of it that fills the
+/// picture: leaves in which few rays were expected have long formulas.
+Status Renderer::State::look_closely(const Camera& camera) {
+  // Four times as many rays make leaves that are hardly faster (decision 0014).
+  constexpr double kMany = 4;
+  if (!cells || settings.subdivide.leaf_size != kAutoLeafSize) return Done{};
+  const Box region{scene.region.lo + scene.origin, scene.region.hi + scene.origin};
+  if (rays_at_most(camera, region) <= kMany * cells_rays || looked_from == camera) return Done{};
+  if (!scout) scout = make_cpu_tracer(scene, *cells, 1);
+  looked_from = camera;
+  const double wanted = rays_at_nearest_hit(*scout, camera, region);
+  if (!(wanted > kMany * cells_rays)) return Done{};
+  double rays = cells_rays;
+  // Not once more for every step of a camera that comes nearer.
+  while (rays < wanted && rays < kMostRays) rays *= kMany;
+  const Status made = make_tracer(camera, rays);
+  looked_from = camera;
+  return made;
+}
+
+Status Renderer::State::move_threshold_to(const Camera& camera) {
   if (!(settings.pixel_threshold > 0) || !cells || camera == cells_camera) return Done{};
   // What pays off follows from how many rays there are.
   const bool as_many_rays =
