@@ -1,0 +1,73 @@
+#include "io/openscad_view.h"
+
+#include <gtest/gtest.h>
+
+namespace whittle {
+namespace {
+
+std::string assigned_by(std::string_view text) {
+  AssignedViews found;
+  find_assigned_views(text, found);
+  return std::string(found.target ? "t" : "") + (found.rotation ? "r" : "") +
+         (found.distance ? "d" : "") + (found.fov ? "f" : "");
+}
+
+TEST(OpenscadView, WhatIsAssignedAtTheTopCounts) {
+  EXPECT_EQ(assigned_by("$vpt=[1,2,3]; $vpr = [0,0,0];\n$vpd\t=\n3;$vpf=4"), "trdf");
+  EXPECT_EQ(assigned_by("cube([1, 2]); { } $vpd /* how far */ // in mm\n = 3;"), "d");
+  EXPECT_EQ(assigned_by("}) $vpd = 3;"), "d") << "what closes too much is openscad's affair";
+  EXPECT_EQ(assigned_by("s = \"\\\"\"; $vpr = 1;"), "r");
+}
+
+TEST(OpenscadView, WhatIsNoAssignmentAtTheTopDoesNot) {
+  for (const char* text :
+       {"", "$", "$vp", "$vpd", "$vpd =", "$vpd == 3", "a = $vpd;", "$vpdx = 3;", "$vpx = 3;",
+        "// $vpd = 3;", "/* $vpd = 3; */", "/* $vpd = 3;", "\"$vpd = 3;\"", "\"$vpd = 3;",
+        "module m() { $vpd = 3; }", "m($vpd = 3);", "[$vpd = 3]", "xvpd = 3;", "$vpd / = 3"}) {
+    EXPECT_EQ(assigned_by(text), std::string_view(text) == "$vpd =" ? "d" : "") << text;
+  }
+}
+
+FileView taken(std::string messages, std::string* rest = nullptr) {
+  const FileView view =
+      take_view(messages, {.target = true, .rotation = true, .distance = true, .fov = true});
+  if (rest) *rest = messages;
+  return view;
+}
+
+TEST(OpenscadView, TheAnswerIsTakenFromWhatIsSaid) {
+  std::string rest;
+  const FileView view = taken(
+      "ECHO: 1\nECHO: whittle_view = 0, t = [1, -2, 3.5], r = [90, 0], d = 1e+06, f = 30\n"
+      "WARNING: Viewall and autocenter disabled in favor of $vp*\nWARNING: odd",
+      &rest);
+  EXPECT_EQ(rest, "ECHO: 1\nWARNING: odd");
+  EXPECT_EQ(view.target, (Vec3{1, -2, 3.5}));
+  EXPECT_EQ(view.rotation_degrees, (Vec3{90, 0, 0}));
+  EXPECT_EQ(view.distance, 1e6);
+  EXPECT_EQ(view.fov_degrees, 30);
+}
+
+TEST(OpenscadView, OnlyWhatIsAssignedIsSet) {
+  std::string messages = "ECHO: whittle_view = 0, t = [1, 2, 3], r = [0, 0, 0], d = 5, f = 6\n";
+  const FileView view = take_view(messages, {.rotation = true});
+  EXPECT_FALSE(view.target);
+  EXPECT_EQ(view.rotation_degrees, (Vec3{0, 0, 0}));
+  EXPECT_FALSE(view.distance);
+  EXPECT_FALSE(view.fov_degrees);
+}
+
+TEST(OpenscadView, WhatIsOfAnotherKindIsNotSet) {
+  for (const char* values :
+       {"t = undef, r = \"x\", d = true, f = 0", "t = [1], r = [1, 2, 3, 4], d = , f = 180",
+        "t = [1, \"2\", 3], r = [], d = nan, f = inf", "t = [1, 2, 3, r = 3, d = 4 5, f = -1", "",
+        "t", "t = [", "r = [1, 2, inf], d = -inf, f = nan"}) {
+    const FileView view = taken(std::string("ECHO: whittle_view = 0, ") + values);
+    EXPECT_FALSE(view.target || view.rotation_degrees || view.distance || view.fov_degrees)
+        << values;
+  }
+  EXPECT_FALSE(taken("").target);
+}
+
+}  // namespace
+}  // namespace whittle
