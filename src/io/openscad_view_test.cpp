@@ -1,6 +1,10 @@
 #include "io/openscad_view.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <string>
+#include <vector>
 
 namespace whittle {
 namespace {
@@ -67,6 +71,40 @@ TEST(OpenscadView, WhatIsOfAnotherKindIsNotSet) {
         << values;
   }
   EXPECT_FALSE(taken("").target);
+}
+
+/// Texts of words that mean something here.
+rc::Gen<std::string> odd_text(std::vector<std::string> words) {
+  return rc::gen::map(
+      rc::gen::container<std::vector<std::string>>(rc::gen::elementOf(std::move(words))),
+      [](const std::vector<std::string>& all) {
+        std::string text;
+        for (const std::string& word : all) text += word;
+        return text;
+      });
+}
+
+RC_GTEST_PROP(OpenscadView, AnyTextIsLookedThrough, ()) {
+  const std::string text = *odd_text({"$vp", "$vpd", "t", "=", "==", "/", "*", "//", "/*", "*/",
+                                      "\"", "\\", "\n", "(", ")", "{", "}", " "});
+  AssignedViews assigned;
+  find_assigned_views(text, assigned);
+  AssignedViews more = assigned;
+  find_assigned_views(text + "\n", more);
+  RC_ASSERT(more.any() == assigned.any());
+}
+
+RC_GTEST_PROP(OpenscadView, OfAnyMessagesOnlyTheAnswerIsTaken, ()) {
+  const std::string text =
+      *odd_text({"ECHO: whittle_view = ", ", t = ", ", r = ", ", d = ", ", f = ", "[", "]", "1",
+                 ", ", "-", "1e999", "\n", "x"});
+  std::string messages = text;
+  const FileView view =
+      take_view(messages, {.target = true, .rotation = true, .distance = true, .fov = true});
+  RC_ASSERT(messages.size() <= text.size());
+  RC_ASSERT(!view.fov_degrees || (*view.fov_degrees > 0 && *view.fov_degrees < 180));
+  RC_ASSERT(!view.target || is_finite(*view.target));
+  if (text.find("whittle_view") == std::string::npos) RC_ASSERT(messages == text);
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include "io/quoted_places.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <string>
 
 namespace whittle {
 namespace {
@@ -68,6 +71,16 @@ TEST(QuotedPlaces, StringsAndBlanksAreUnderstood) {
 TEST(QuotedPlaces, APlaceCanBeLeftOut) {
   EXPECT_EQ(without_place("a b.stl:1:1: warning: odd", "a b.stl"), "a b.stl: warning: odd");
   EXPECT_EQ(without_place("other:1:1: warning: odd", "a b.stl"), "other:1:1: warning: odd");
+}
+
+RC_GTEST_PROP(QuotedPlaces, AnyPlaceInAnyTextHasAMessage, (const std::string& text)) {
+  const auto line = *rc::gen::inRange(0, 5), column = *rc::gen::inRange(0, 200);
+  QuotedPlaces quoted(text, "a");
+  const std::string place = "a:" + std::to_string(line) + ":" + std::to_string(column);
+  const std::string message = quoted(place + ": warning: odd");
+  RC_ASSERT(message.starts_with("a: warning: "));
+  RC_ASSERT(message.ends_with("odd"));
+  RC_ASSERT(message.size() < 100u);
 }
 
 }  // namespace
