@@ -18,7 +18,7 @@ constexpr double kBesideShare = 1e-3, kBesideMargins = 4;
 
 /// Operands fill a cell if along every axis they are that far from their common middle, their own
 /// size included: a share of what it is where each is as large as the cell.
-constexpr double kFilled = 0.25;
+constexpr double kFilled = 0.5;
 
 /// So many operands, and no more than twice as many, are asked.
 constexpr size_t kAsked = 64;
