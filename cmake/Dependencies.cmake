@@ -6,6 +6,7 @@ find_package(CLI11 REQUIRED)           # libcli11-dev: the command line
 find_package(fmt REQUIRED)             # libfmt-dev: text
 find_package(nlohmann_json REQUIRED)   # nlohmann-json3-dev: machine-readable output
 find_package(PNG REQUIRED)             # libpng-dev: pictures
+find_package(ZLIB REQUIRED)            # zlib1g-dev: files in archives; libpng needs it too
 find_package(OpenEXR REQUIRED)         # libopenexr-dev: facts as pictures
 # libqhull-dev: convex hulls. Its own CMake package wants Qhull's programs too. Linked whole, so that it
 # costs nothing when the program starts.

@@ -12,6 +12,7 @@ build_packages=(
   libfmt-dev          # text
   nlohmann-json3-dev  # machine-readable output
   libpng-dev          # pictures
+  zlib1g-dev          # files in archives; libpng needs it too
   libopenexr-dev      # facts as pictures
   libqhull-dev        # convex hulls
   pkgconf             # finds what ships no CMake package

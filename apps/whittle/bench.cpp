@@ -55,7 +55,6 @@ struct BenchArguments {
   ViewOptions view;
   RendererSettings renderer;
   SubdivisionArguments subdivision;
-  WithoutEffect without_effect;
 };
 
 /// What is measured of the backend that draws cells, and of no other: the paper's quantities
@@ -360,15 +359,19 @@ int bench_command(Arguments arguments) {
                   "then goes N degrees around the model, and says what each\n"
                   "takes if cells are kept, and afresh (0)");
   group.add_flag("--json", a.wants_json, "an array with one object a file");
-  add_view_options(app, a.view);
-  add_loading_options(app, a.loading);
-  add_machine_options(app, a.renderer, a.without_effect);
+  add_view_options(app, a.view, a.loading);
+  add_loading_options(line, a.loading);
+  add_machine_options(app, a.renderer);
   add_subdivision_options(app, a.subdivision);
   if (const std::optional<int> code = line.parse(arguments)) return *code;
   if (std::ranges::find(a.files, "-") != a.files.end()) {
     return report({ErrorKind::kUsage, "standard input cannot be read again; bench wants files"});
   }
   if (Status possible = settle_device(a.renderer); !possible) return report(possible.error());
+  if (Status possible = check_view(a.view); !possible) return report(possible.error());
+  for (const std::string& file : a.files) {
+    if (Status fits = check_loading(file, a.loading); !fits) return report(fits.error());
+  }
   apply(a.subdivision, a.renderer);
 
   Json all = Json::array();

@@ -35,7 +35,6 @@ struct CellsArguments {
   bool no_background = false;
   RendererSettings renderer;
   SubdivisionArguments subdivision;
-  WithoutEffect without_effect;
   bool wants_statistics = false;
 };
 
@@ -53,19 +52,20 @@ void add_options(CommandLine& line, CellsArguments& a) {
   output.add_choice("--show", cell_view_choices(), "view of cells",
                     "{}; faces: front faces of the nearest\ncells, translucent",
                     [&](CellView show) { a.show = show; });
-  add_view_options(app, a.view);
+  add_view_options(app, a.view, a.loading);
   look.add_choice("--style", style_choices(), "style", "{}",
                   [&](Style style) { a.shading.style = style; });
   add_color_options(app, a.shading);
   add_shadow_option(app, a.shading);
   look.add_flag("--no-background", a.no_background, "what is not hit is transparent");
-  add_loading_options(app, a.loading);
-  add_machine_options(app, a.renderer, a.without_effect);
+  add_loading_options(line, a.loading);
+  add_lenient_option(app, a.loading);
+  add_machine_options(app, a.renderer);
   machine.add_flag("--stats", a.wants_statistics, "say what was done and what it cost");
   add_subdivision_options(app, a.subdivision);
 }
 
-Result<Picture> draw(const CellsArguments& a, Renderer& renderer) {
+Result<Picture> draw(const CellsArguments& a, const Model& model, Renderer& renderer) {
   ProgressLine progress(!a.loading.quiet, "subdividing");
   const Camera camera = renderer.camera(a.view);
   if (Status prepared = renderer.prepare(camera, Refine::kAll); !prepared) return prepared.error();
@@ -76,22 +76,23 @@ Result<Picture> draw(const CellsArguments& a, Renderer& renderer) {
   Result<Picture> picture =
       renderer.shade(*frame, camera, a.shading, default_antialias(a.shading.style));
   if (picture) {
+    say_if_nothing_is_seen(model, *frame, a.loading);
     draw_cells(*renderer.cells(), renderer.scene()->origin, camera, *frame, a.show, *picture);
   }
   return picture;
 }
 
-Status run(CellsArguments& a) {
+Result<int> run(CellsArguments& a) {
   const Stopwatch watch;
   if (a.output.empty()) return Error{ErrorKind::kUsage, "give -o FILE.png to make a picture"};
   if (a.renderer.backend == Backend::kOracle) {
     return Error{ErrorKind::kUsage, "backend oracle has no cells"};
   }
-  if (Status possible = check_shadows(a.shading); !possible) return possible;
-  if (Status possible = settle_device(a.renderer); !possible) return possible;
-  if (Status possible = check_not_input(a.output, a.file); !possible) return possible;
-  if (Status possible = check_writable(a.output); !possible) return possible;
-  if (!a.loading.quiet) say_without_effect(a.without_effect);
+  if (Status possible = check_shadows(a.shading); !possible) return possible.error();
+  if (Status possible = check_view(a.view); !possible) return possible.error();
+  if (Status possible = settle_device(a.renderer); !possible) return possible.error();
+  if (Status possible = check_not_input(a.output, a.file); !possible) return possible.error();
+  if (Status possible = check_writable(a.output); !possible) return possible.error();
   suit_style(a.shading.style, a.loading);
   const Result<Read> read = load(a.file, a.loading);
   if (!read) return read.error();
@@ -100,19 +101,19 @@ Status run(CellsArguments& a) {
   a.shading.background = !a.no_background;
   Result<Renderer> renderer = Renderer::make(read->model, a.renderer);
   if (!renderer) return renderer.error();
-  const Result<Picture> picture = draw(a, *renderer);
+  const Result<Picture> picture = draw(a, read->model, *renderer);
   if (!picture) return picture.error();
   const Result<std::string> bytes =
       encode(FileFormat::kPng, Frame(), *picture, a.no_background, a.output);
   if (!bytes) return bytes.error();
   const Stopwatch writing;
-  if (Status written = write_output(a.output, *bytes); !written) return written;
+  if (Status written = write_output(a.output, *bytes); !written) return written.error();
   times.write = writing.milliseconds();
   times.total = watch.milliseconds();
   if (a.wants_statistics) {
     say_lines(statistics(read->model, *renderer, a.renderer.backend == Backend::kAuto, times));
   }
-  return Done{};
+  return code_for(*read, a.loading);
 }
 
 }  // namespace
@@ -122,8 +123,8 @@ int cells_command(Arguments arguments) {
   CellsArguments a;
   add_options(line, a);
   if (const std::optional<int> code = line.parse(arguments)) return *code;
-  const Status done = run(a);
-  return done ? kExitDone : report(done.error());
+  const Result<int> code = run(a);
+  return code ? *code : report(code.error());
 }
 
 }  // namespace whittle

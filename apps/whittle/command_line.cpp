@@ -8,13 +8,16 @@
 #include <utility>
 
 #include "console.h"
+#include "io/input_kinds.h"
 #include "option_group.h"
 #include "progress.h"
 #include "statistics.h"
 #include "whittle/reading.h"
 
 namespace whittle {
-void add_loading_options(CLI::App& app, Loading& loading) {
+
+void add_loading_options(CommandLine& line, Loading& loading) {
+  CLI::App& app = line.app();
   OptionGroup group(app, "Reading");
   group.add_choice("--curves", curves_choices(), "kind of curves",
                    "{}; auto: facets where $fn asks\nfor them, and in style openscad",
@@ -27,6 +30,21 @@ void add_loading_options(CLI::App& app, Loading& loading) {
   group.add_text("--import-root", "DIR", "read files that FILE names only from this folder tree",
                  [&](const std::string& folder) { loading.import_root = folder; });
   add_limit_option(app, loading.limits);
+  add_scad_options(line, loading.scad);
+}
+
+void add_lenient_option(CLI::App& app, Loading& loading) {
+  OptionGroup(app, "Reading")
+      .add_flag("--lenient", loading.lenient,
+                "exit code 0 although something in FILE is not shown");
+}
+
+Status check_loading(const std::string& file, const Loading& loading) {
+  if (Status possible = check_scad(file, loading.scad); !possible) return possible;
+  if (!loading.import_root || kind_of_input(file) != InputKind::kScad) return Done{};
+  return Error{ErrorKind::kUsage,
+               "--import-root: openscad, which evaluates a .scad file, reads whatever the file "
+               "names; make a .csg of it where it can do no harm"};
 }
 
 void suit_style(Style style, Loading& loading) {
@@ -36,19 +54,26 @@ void suit_style(Style style, Loading& loading) {
 }
 
 ReadOptions read_options(const Loading& loading) {
+  FlattenOptions flatten = loading.scad.flatten;
+  // Programs may look at it, and openscad has a remark less.
+  if (loading.view && gives_camera(*loading.view)) {
+    flatten.arguments.push_back("--camera=" + camera_text(*loading.view));
+  }
   return {.curves = loading.curves,
           .polish = loading.polish,
           .limits = loading.limits,
           .folder = std::nullopt,
           .import_root = loading.import_root,
-          .solid_box = tight_box};
+          .solid_box = tight_box,
+          .flatten = std::move(flatten)};
 }
 
 Status say_warnings(const Read& read, const Loading& loading) {
   if (loading.strict && read.unsupported) {
-    return Error{ErrorKind::kInput,
-                 message_at(read.model.file, read.unsupported->where,
-                            fmt::format("error: {} (--strict)", read.unsupported->message))};
+    return Error{ErrorKind::kInput, read.refusal + " (--strict)"};
+  }
+  if (loading.scad.hard_warnings && !read.warnings.empty()) {
+    return Error{ErrorKind::kInput, read.warnings.front() + " (--hardwarnings)"};
   }
   if (loading.quiet) return Done{};
   for (const std::string& warning : read.warnings) say(warning);
@@ -60,10 +85,29 @@ Result<Read> load(const std::string& file, const Loading& loading) {
     const ProgressLine progress(!loading.quiet, "reading");
     return read_file(file, read_options(loading));
   };
+  if (Status possible = check_loading(file, loading); !possible) return possible.error();
   Result<Read> read = read_with_progress();
   if (!read) return read;
   if (Status fit = say_warnings(*read, loading); !fit) return fit.error();
   return read;
+}
+
+void say_if_nothing_is_seen(const Model& model, const Frame& frame, const Loading& loading) {
+  if (loading.quiet) return;
+  if (std::ranges::any_of(frame.hits, [](const Hit& hit) { return hit.hit(); })) return;
+  say(fmt::format("{}: warning: {}", model.file,
+                  tight_box(model).is_empty() ? "the solid is empty" : "nothing is in view"));
+}
+
+int code_for(const Read& read, const Loading& loading) {
+  if (!read.unsupported || loading.lenient) return kExitDone;
+  return report({ErrorKind::kInput,
+                 read.refusal + "; so the picture is not what was meant (--lenient accepts that)"});
+}
+
+void add_view_options(CLI::App& app, ViewOptions& view, Loading& loading) {
+  add_view_options(app, view);
+  loading.view = &view;
 }
 
 void add_view_options(CLI::App& app, ViewOptions& view) {
@@ -129,16 +173,13 @@ void add_shadow_option(CLI::App& app, ShadeSettings& shading) {
                 "lights reach only what they see (not in style openscad)");
 }
 
-void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffect& without_effect) {
+void add_machine_options(CLI::App& app, RendererSettings& settings) {
   OptionGroup group(app, "Machine");
   group.add_text("--backend", "NAME",
                  fmt::format("{}; auto: the fastest that works here", names_of(backend_choices())),
                  [&](const std::string& name) {
                    const std::string lower = to_lower(name);
-                   if (lower == "manifold" || lower == "cgal") {
-                     without_effect.missed.push_back("--backend " + name);
-                     return;
-                   }
+                   if (lower == "manifold" || lower == "cgal") return;
                    const Result<Backend> chosen = choose(backend_choices(), "backend", name);
                    if (!chosen) refuse("--backend", chosen.error().message);
                    settings.backend = *chosen;
@@ -220,45 +261,6 @@ void apply(const SubdivisionArguments& arguments, RendererSettings& settings) {
   s.split = arguments.split.value_or(s.split);
   s.ignore_small = arguments.ignore_small.value_or(s.ignore_small);
   settings.pixel_threshold = arguments.pixel_threshold.value_or(settings.pixel_threshold);
-}
-
-void add_openscad_options(CLI::App& app, WithoutEffect& without_effect) {
-  struct Ignored {
-    const char* name;
-    bool is_missed;  ///< with it, OpenSCAD's picture or outputs would be others
-  };
-  constexpr Ignored kIgnored[] = {{"-D", true},
-                                  {"-p", true},
-                                  {"-P", true},
-                                  {"-d", true},
-                                  {"-m", true},
-                                  {"--view", true},
-                                  {"--animate", true},
-                                  {"--summary", true},
-                                  {"--animate_sharding", true},
-                                  {"--enable", false},
-                                  {"--csglimit", false},
-                                  {"--summary-file", true},
-                                  {"--debug", false},
-                                  {"--check-parameters", false},
-                                  {"--check-parameter-ranges", false}};
-  // No heading: the help's last lines name them.
-  OptionGroup group(app, "");
-  for (const Ignored& ignored : kIgnored) {
-    group.add_each(ignored.name, "VALUE", "", [&without_effect, ignored](const std::string&) {
-      if (ignored.is_missed) without_effect.missed.emplace_back(ignored.name);
-    });
-  }
-  group.add_flag(
-      "--hardwarnings", [&] { without_effect.missed.emplace_back("--hardwarnings"); }, "");
-  // A value comes only after `=`: the next word is FILE.
-  group.add_flag("--render,--preview", without_effect.values, "");
-}
-
-void say_without_effect(const WithoutEffect& without_effect) {
-  if (without_effect.missed.empty()) return;
-  say(fmt::format("whittle: note: without effect here: {}",
-                  fmt::join(without_effect.missed, ", ")));
 }
 
 }  // namespace whittle

@@ -3,12 +3,12 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "image/shade.h"
 #include "io/read.h"
 #include "limits.h"
 #include "option_group.h"
+#include "scad_options.h"
 #include "trace/view.h"
 #include "whittle/renderer.h"
 
@@ -20,9 +20,16 @@ struct Loading {
   ReadLimits limits;
   std::optional<std::string> import_root;
   bool strict = false;
+  bool lenient = false;
   bool quiet = false;
+  ScadArguments scad;
+  const ViewOptions* view = nullptr;  ///< openscad is told its camera
 };
-void add_loading_options(CLI::App& app, Loading& loading);
+void add_loading_options(CommandLine& line, Loading& loading);
+/// --lenient, of what makes pictures.
+void add_lenient_option(CLI::App& app, Loading& loading);
+/// Fails for what the options ask of a file that is not of the kind. Before anything is read.
+Status check_loading(const std::string& file, const Loading& loading);
 /// What equals OpenSCAD's picture has OpenSCAD's facets, unless true curves were chosen.
 void suit_style(Style style, Loading& loading);
 ReadOptions read_options(const Loading& loading);
@@ -31,8 +38,16 @@ Status say_warnings(const Read& read, const Loading& loading);
 /// Reads a file, shows the progress, and says its warnings.
 Result<Read> load(const std::string& file, const Loading& loading);
 
+/// Says if nothing is seen, and why.
+void say_if_nothing_is_seen(const Model& model, const Frame& frame, const Loading& loading);
+/// The exit code of a picture that was written: what was left out does not pass for success, unless
+/// that was asked for. Says so.
+int code_for(const Read& read, const Loading& loading);
+
 /// --imgsize, --camera and what belongs to them.
 void add_view_options(CLI::App& app, ViewOptions& view);
+/// The same; openscad is told of the camera.
+void add_view_options(CLI::App& app, ViewOptions& view, Loading& loading);
 
 /// --colorscheme and --light.
 void add_color_options(CLI::App& app, ShadeSettings& shading);
@@ -40,17 +55,9 @@ void add_color_options(CLI::App& app, ShadeSettings& shading);
 /// --shadows.
 void add_shadow_option(CLI::App& app, ShadeSettings& shading);
 
-/// Options of OpenSCAD's that are taken without effect.
-struct WithoutEffect {
-  std::vector<std::string> missed;  ///< those given that a user may wonder about
-  std::vector<std::string> values;  ///< of those that nobody misses
-};
-void add_openscad_options(CLI::App& app, WithoutEffect& without_effect);
-/// Says which were given, if any.
-void say_without_effect(const WithoutEffect& without_effect);
-
-/// --backend and --threads. OpenSCAD's own backends stand for `auto`, without effect.
-void add_machine_options(CLI::App& app, RendererSettings& settings, WithoutEffect& without_effect);
+/// --backend, --device, --threads and the like. OpenSCAD's own backends stand for `auto`: the
+/// picture is the same.
+void add_machine_options(CLI::App& app, RendererSettings& settings);
 
 /// A device that is named is taken, so `auto` is the backend that has devices then; fails if
 /// another one was chosen. After the command line is read.

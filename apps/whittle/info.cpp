@@ -24,10 +24,10 @@ constexpr CommandHelp kHelp = {
     "  whittle info part.csg --json | jq .half_spaces\n\n"
     "Exit codes: 0 done, 1 bad input, 2 bad usage, 3 refused by the machine."};
 
-constexpr std::array<const char*, 6> kNodeNames = {"union",     "difference", "intersection",
-                                                   "transform", "color",      "primitive"};
+constexpr std::array<const char*, 7> kNodeNames = {
+    "union", "difference", "intersection", "transform", "color", "primitive", "body"};
 constexpr std::array<const char*, std::variant_size_v<Shape>> kShapeNames = {
-    "cube", "sphere", "cylinder", "polyhedron", "halfspace"};
+    "cube", "sphere", "cylinder", "polyhedron", "halfspace", "mesh"};
 
 struct Info {
   std::array<size_t, kNodeNames.size()> nodes{};
@@ -149,7 +149,7 @@ int info_command(Arguments arguments) {
   line.add_required("FILE", file);
   OptionGroup(line.app(), "Output")
       .add_flag("--json", wants_json, "one JSON object, warnings in it");
-  add_loading_options(line.app(), loading);
+  add_loading_options(line, loading);
   if (const std::optional<int> code = line.parse(arguments)) return *code;
 
   if (wants_json) loading.quiet = true;

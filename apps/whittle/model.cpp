@@ -102,6 +102,7 @@ int model_command(Arguments arguments) {
   if (a.name.empty()) {
     return report({ErrorKind::kUsage, "NAME is required; 'whittle model --list' says which"});
   }
+  if (Status possible = check_view(a.view); !possible) return report(possible.error());
   const Result<std::string> text = make_text(a);
   if (!text) return report(text.error());
   const Status written = write_output(a.output, *text);

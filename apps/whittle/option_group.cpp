@@ -1,10 +1,13 @@
 #include "option_group.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "console.h"
@@ -49,6 +52,23 @@ class HelpFormatter : public CLI::Formatter {
   std::string usage_;
 };
 
+/// `--flag value` as `--flag=value`, and `--flag` alone as `--flag=true`.
+std::vector<std::string> join_loose_flags(Arguments arguments,
+                                          const std::vector<std::string>& flags) {
+  std::vector<std::string> words(arguments.begin(), arguments.end());
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (std::ranges::find(flags, words[i]) == flags.end()) continue;
+    const std::string next = i + 1 < words.size() ? words[i + 1] : "";
+    const bool is_value = !next.empty() && !next.starts_with('-') &&
+                          next.find_first_of("./") == std::string::npos &&
+                          ::access(next.c_str(), F_OK) != 0;
+    words[i] += '=' + (is_value ? next : "true");
+    if (!is_value) continue;
+    words.erase(words.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+  }
+  return words;
+}
+
 }  // namespace
 
 CommandLine::CommandLine(const CommandHelp& help) : app_(std::make_unique<CLI::App>()) {
@@ -77,11 +97,21 @@ void CommandLine::add_version(const char* version) {
   app_->set_version_flag("-v,--version", version, "say the version and stop")->group("Other");
 }
 
+void CommandLine::add_loose_flag(const char* name,
+                                 const std::function<void(const std::string&)>& set) {
+  loose_flags_.emplace_back(name);
+  app_->add_option_function<std::string>(name, set)
+      ->type_name("VALUE")
+      ->group(kUnlisted)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+}
+
 std::optional<int> CommandLine::parse(Arguments arguments) {
   // Added last, so that it comes last in the help.
   app_->set_help_flag("-h,--help", "say this and stop")->group("Other");
   // CLI11 takes them last first.
-  std::vector<std::string> words(arguments.rbegin(), arguments.rend());
+  std::vector<std::string> words = join_loose_flags(arguments, loose_flags_);
+  std::ranges::reverse(words);
   try {
     app_->parse(std::move(words));
     return std::nullopt;
@@ -98,6 +128,10 @@ std::optional<int> CommandLine::parse(Arguments arguments) {
 
 std::string to_lower(std::string text) {
   return CLI::detail::to_lower(std::move(text));
+}
+
+void answer(const std::string& text) {
+  throw CLI::CallForVersion(text, 0);
 }
 
 void refuse(const char* option, const std::string& why) {
@@ -149,11 +183,6 @@ void OptionGroup::add_flag(const char* names, bool& given, const char* descripti
 void OptionGroup::add_flag(const char* names, const std::function<void()>& given,
                            const char* description) {
   app_.add_flag_callback(names, given, description)->group(heading_);
-}
-
-void OptionGroup::add_flag(const char* names, std::vector<std::string>& values,
-                           const char* description) {
-  app_.add_flag(names, values, description)->group(heading_);
 }
 
 void OptionGroup::add_text(const char* name, const char* value, const std::string& description,

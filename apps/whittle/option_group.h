@@ -47,12 +47,17 @@ class CommandLine {
   /// -v and --version.
   void add_version(const char* version);
 
+  /// A flag whose value may also stand in the next word, as openscad reads it: if that is neither
+  /// an option nor what could be a file.
+  void add_loose_flag(const char* name, const std::function<void(const std::string&)>& set);
+
   /// Reads the command line. If that is the end of it (--help, or a mistake, which is then said),
   /// the exit code.
   std::optional<int> parse(Arguments arguments);
 
  private:
   std::unique_ptr<CLI::App> app_;
+  std::vector<std::string> loose_flags_;
 };
 
 /// A to Z become a to z.
@@ -60,6 +65,9 @@ std::string to_lower(std::string text);
 
 /// Ends the reading of the command line: the value of `option` is not one.
 [[noreturn]] void refuse(const char* option, const std::string& why);
+
+/// Ends the reading of the command line: this is what it asked for, and the answer is printed.
+[[noreturn]] void answer(const std::string& text);
 
 /// `count` finite numbers separated by commas, or refuses.
 std::vector<double> parse_numbers(const char* option, std::string_view text, size_t count);
@@ -76,9 +84,6 @@ class OptionGroup {
 
   void add_flag(const char* names, bool& given, const char* description);
   void add_flag(const char* names, const std::function<void()>& given, const char* description);
-  /// A flag that may have a value, written after `=`; the values of all that are given.
-  void add_flag(const char* names, std::vector<std::string>& values, const char* description);
-
   /// An option whose value `set` reads, and refuses if it must. If it is given more than once, the
   /// last value counts, so that scripts can add to the options that they are given.
   void add_text(const char* name, const char* value, const std::string& description,

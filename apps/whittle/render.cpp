@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,11 +11,16 @@
 #include "command_line.h"
 #include "commands.h"
 #include "console.h"
-#include "model/instances.h"
+#include "frame_reader.h"
+#include "io/dependencies.h"
+#include "io/input_kinds.h"
+#include "openscad_options.h"
 #include "option_group.h"
 #include "progress.h"
 #include "statistics.h"
+#include "summary.h"
 #include "whittle/output.h"
+#include "whittle/reading.h"
 
 namespace whittle {
 namespace {
@@ -28,18 +34,20 @@ constexpr CommandHelp kHelp = {
     "       whittle bench FILE...              measures every stage\n"
     "       whittle model NAME [N] [-o OUT]    writes a model made to measure\n"
     "       whittle devices                    lists Vulkan's devices\n\n"
-    "FILE is .csg, or .scad if openscad is installed; '-' is standard input. Each\n"
-    "command has its own --help. A file that is called like a command is ./info.",
+    "FILE is .csg, or .scad if openscad is installed, or what import() reads (.stl,\n"
+    ".off, .obj, .3mf, .amf, .svg, .dxf); '-' is standard input, as .csg. Each command\n"
+    "has its own --help. A file that is called like a command is ./info.",
     "Examples:\n"
     "  whittle part.csg -o part.png\n"
     "  whittle part.csg -o part.png -o facts.exr --imgsize 1920,1080\n"
     "  whittle part.csg -o top.png --camera 0,0,0,0,0,0,200 --projection ortho\n"
     "  openscad -o - --export-format csg part.scad | whittle - -o part.png\n\n"
-    "Exit codes: 0 done, 1 bad input, 2 bad usage, 3 refused by the machine (device,\n"
-    "memory, disk).\n\n"
-    "OpenSCAD's -D, -d, -m, -p, -P, --animate, --animate_sharding, --check-parameters,\n"
-    "--check-parameter-ranges, --csglimit, --debug, --enable, --hardwarnings, --preview,\n"
-    "--render, --summary, --summary-file and --view are taken without effect."};
+    "  whittle part.scad -o lid.png -D 'part=\"lid\"'\n\n"
+    "Exit codes: 0 done, 1 bad input, or something in it is not shown (--lenient: 0),\n"
+    "2 bad usage, 3 refused by the machine (device, memory, disk).\n\n"
+    "OpenSCAD's --render and --preview decide $preview of a .scad. --backend Manifold or\n"
+    "CGAL, --csglimit, --debug, --check-parameters and --check-parameter-ranges change\n"
+    "no picture. Other views (--view, --preview=throwntogether) are refused."};
 
 struct Output {
   std::string path;
@@ -58,7 +66,8 @@ struct RenderArguments {
   int antialias = 0;  ///< 0: what suits the style
   RendererSettings renderer;
   SubdivisionArguments subdivision;
-  WithoutEffect without_effect;
+  OpenscadArguments openscad;
+  SummaryArguments summary;
   bool wants_statistics = false;
 };
 
@@ -68,11 +77,20 @@ void add_options(CommandLine& line, RenderArguments& a) {
   OptionGroup output(app, "Output"), look(app, "Look"), machine(app, "Machine");
   output.add_each("-o", "OUT", "a .png or .exr, and -o again for more; '-': standard output",
                   [&](const std::string& path) { a.outputs.push_back(path); });
-  output.add_choice("--export-format", format_choices(), "format", "{}, whatever OUT ends in",
-                    [&](FileFormat format) { a.export_format = format; });
+  output.add_text("--export-format", "NAME", names_of(format_choices()) + ", whatever OUT ends in",
+                  [&](const std::string& name) {
+                    const Result<FileFormat> format = choose(format_choices(), "format", name);
+                    if (!format) {
+                      refuse("--export-format",
+                             refusal_of_format(name).value_or(format.error().message));
+                    }
+                    a.export_format = *format;
+                  });
   output.add_choice("--pass", pass_choices(), "pass", "what a PNG shows: {}",
                     [&](Pass pass) { a.pass = pass; });
-  add_view_options(app, a.view);
+  add_openscad_options(line, a.openscad);
+  add_summary_options(app, a.summary);
+  add_view_options(app, a.view, a.loading);
   look.add_choice("--style", style_choices(), "style", "{}",
                   [&](Style style) { a.shading.style = style; });
   add_color_options(app, a.shading);
@@ -80,11 +98,11 @@ void add_options(CommandLine& line, RenderArguments& a) {
   look.add_count("--aa", "N", a.antialias, 1, kMostAntialias,
                  "N x N rays a pixel at edges, 1 to 16 (studio: 4)");
   look.add_flag("--no-background", a.no_background, "what is not hit is transparent");
-  add_loading_options(app, a.loading);
-  add_machine_options(app, a.renderer, a.without_effect);
+  add_loading_options(line, a.loading);
+  add_lenient_option(app, a.loading);
+  add_machine_options(app, a.renderer);
   machine.add_flag("--stats", a.wants_statistics, "say what was done and what it cost");
   add_subdivision_options(app, a.subdivision);
-  add_openscad_options(app, a.without_effect);
   line.add_version("whittle " WHITTLE_VERSION);
 }
 
@@ -107,7 +125,10 @@ Result<std::vector<Output>> choose_outputs(const RenderArguments& a) {
                                                   names_of(format_choices(), " or "))};
     } else {
       const Result<FileFormat> format = format_of(path);
-      if (!format) return format.error();
+      if (!format) {
+        const std::optional<std::string> refusal = refusal_of_format(path);
+        return refusal ? Error{ErrorKind::kUsage, *refusal} : format.error();
+      }
       output.format = *format;
     }
     outputs.push_back(std::move(output));
@@ -150,44 +171,137 @@ Status draw(const RenderArguments& a, const std::vector<Output>& outputs, const 
   return Done{};
 }
 
-Status render(RenderArguments& a) {
-  const Stopwatch watch;
-  const Result<std::vector<Output>> outputs = choose_outputs(a);
-  if (!outputs) return outputs.error();
+/// Fails for what can not be done, before it has begun.
+Status check_possible(const RenderArguments& a, const std::vector<Output>& outputs) {
   if (Status possible = check_shadows(a.shading); !possible) return possible;
-  if (Status possible = settle_device(a.renderer); !possible) return possible;
-  for (const Output& output : *outputs) {
-    if (Status possible = check_not_input(output.path, a.file); !possible) return possible;
-    if (Status possible = check_writable(output.path); !possible) return possible;
+  if (Status possible = check_view(a.view); !possible) return possible;
+  if (Status possible = check_loading(a.file, a.loading); !possible) return possible;
+  const Animation& animation = a.openscad.animation;
+  if (animation.shards > 1 && animation.frames == 0) {
+    return Error{ErrorKind::kUsage, "--animate_sharding is for --animate N"};
   }
-  if (!a.loading.quiet) say_without_effect(a.without_effect);
+  if (animation.frames > 0 && kind_of_input(a.file) != InputKind::kScad) {
+    return Error{ErrorKind::kUsage,
+                 fmt::format("--animate: {} has no time; only a .scad file has", a.file)};
+  }
+  std::vector<std::string> paths;
+  for (const Output& output : outputs) {
+    if (animation.frames > 0 && output.path == "-") {
+      return Error{ErrorKind::kUsage, "--animate makes many files; -o - is one"};
+    }
+    paths.push_back(animation.frames > 0 ? frame_path(output.path, animation.first())
+                                         : output.path);
+  }
+  if (a.openscad.dependency_file) paths.push_back(*a.openscad.dependency_file);
+  if (a.summary.file) paths.push_back(*a.summary.file);
+  for (const std::string& path : paths) {
+    if (Status possible = check_not_input(path, a.file); !possible) return possible;
+    if (Status possible = check_writable(path); !possible) return possible;
+  }
+  return Done{};
+}
 
-  suit_style(a.shading.style, a.loading);
-  const Result<Read> read = load(a.file, a.loading);
-  if (!read) return read.error();
-  const Model& model = read->model;
-  if (bounds(model).box.is_empty() && !a.loading.quiet) {
-    say(fmt::format("{}: warning: the solid is empty", model.file));
+Status tell_summary(const RenderArguments& a, const Model& model, const GimbalView& view,
+                    double milliseconds) {
+  if (!a.summary.is_wanted()) return Done{};
+  const SummaryFacts facts{view, tight_box(model), milliseconds};
+  if (!a.summary.parts.empty() && !a.loading.quiet) {
+    if (const std::string lines = summary_lines(facts, a.summary); !lines.empty()) say_lines(lines);
   }
+  return a.summary.file ? write_output(*a.summary.file, summary_json(facts, a.summary)) : Done{};
+}
+
+/// One picture, from what was read to the files that show it.
+Status render(RenderArguments& a, const std::vector<Output>& outputs, const Model& model,
+              const Stopwatch& watch) {
   RunTimes times{.read = watch.milliseconds()};
-
-  apply(a.subdivision, a.renderer);
-  a.shading.background = !a.no_background;
   Result<Renderer> renderer = Renderer::make(model, a.renderer);
   if (!renderer) return renderer.error();
-  const Camera camera = renderer->camera(a.view);
+  GimbalView view;
+  const Camera camera = renderer->camera(a.view, &view);
   Frame frame;
   Picture picture;
-  if (Status drawn = draw(a, *outputs, camera, *renderer, frame, picture); !drawn) return drawn;
+  if (Status drawn = draw(a, outputs, camera, *renderer, frame, picture); !drawn) return drawn;
+  say_if_nothing_is_seen(model, frame, a.loading);
 
   const Stopwatch writing;
-  if (Status written = write_all(a, *outputs, frame, picture); !written) return written;
+  if (Status written = write_all(a, outputs, frame, picture); !written) return written;
   times.write = writing.milliseconds();
   times.total = watch.milliseconds();
   if (a.wants_statistics) {
     say_lines(statistics(model, *renderer, a.renderer.backend == Backend::kAuto, times));
   }
+  return tell_summary(a, model, view, times.total);
+}
+
+/// What a run has made so far.
+struct Made {
+  int code = kExitDone;
+  std::vector<std::string> targets, files;  ///< for make
+
+  void add(const std::vector<Output>& outputs, const Read& read) {
+    for (const Output& output : outputs) targets.push_back(output.path);
+    for (const std::string& file : read.files) {
+      if (std::ranges::find(files, file) == files.end()) files.push_back(file);
+    }
+  }
+};
+
+Status render_still(RenderArguments& a, const std::vector<Output>& outputs, Made& made) {
+  const Stopwatch watch;
+  const Result<Read> read = load(a.file, a.loading);
+  if (!read) return read.error();
+  if (Status done = render(a, outputs, read->model, watch); !done) return done;
+  made.add(outputs, *read);
+  made.code = code_for(*read, a.loading);
   return Done{};
+}
+
+Status render_frames(RenderArguments& a, const std::vector<Output>& outputs, Made& made) {
+  const Animation& animation = a.openscad.animation;
+  std::vector<double> times;
+  for (int i = animation.first(); i < animation.last(); ++i) {
+    times.push_back(double(i) / animation.frames);
+  }
+  FrameReader reader(a.file, read_options(a.loading), times);
+  std::set<std::string> said;
+  for (size_t i = 0; i < times.size(); ++i) {
+    const Stopwatch watch;
+    Result<Read> read = reader.next();
+    if (!read) {
+      return Error{read.error().kind, fmt::format("{} ($t = {})", read.error().message, times[i])};
+    }
+    // Each warning once.
+    std::erase_if(read->warnings,
+                  [&](const std::string& warning) { return !said.insert(warning).second; });
+    if (Status fit = say_warnings(*read, a.loading); !fit) return fit;
+    std::vector<Output> frame = outputs;
+    for (Output& output : frame) {
+      output.path = frame_path(output.path, animation.first() + int(i));
+    }
+    if (Status done = render(a, frame, read->model, watch); !done) return done;
+    made.add(frame, *read);
+    if (made.code == kExitDone) made.code = code_for(*read, a.loading);
+  }
+  return Done{};
+}
+
+Result<int> run(RenderArguments& a) {
+  const Result<std::vector<Output>> outputs = choose_outputs(a);
+  if (!outputs) return outputs.error();
+  if (Status possible = settle_device(a.renderer); !possible) return possible.error();
+  if (Status possible = check_possible(a, *outputs); !possible) return possible.error();
+  suit_style(a.shading.style, a.loading);
+  apply(a.subdivision, a.renderer);
+  a.shading.background = !a.no_background;
+  Made made;
+  const bool moves = a.openscad.animation.frames > 0;
+  Status done = moves ? render_frames(a, *outputs, made) : render_still(a, *outputs, made);
+  if (done && a.openscad.dependency_file) {
+    done = write_output(*a.openscad.dependency_file, write_dependencies(made.targets, made.files));
+  }
+  if (!done) return done.error();
+  return made.code;
 }
 
 }  // namespace
@@ -197,8 +311,8 @@ int render_command(Arguments arguments) {
   RenderArguments a;
   add_options(line, a);
   if (const std::optional<int> code = line.parse(arguments)) return *code;
-  const Status done = render(a);
-  return done ? kExitDone : report(done.error());
+  const Result<int> code = run(a);
+  return code ? *code : report(code.error());
 }
 
 }  // namespace whittle

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "base/box.h"
@@ -19,9 +20,10 @@ struct EvaluateOptions {
   /// Of all flat faces together, and of corners that are computed with: more are an error. It names
   /// the limit as the command line does.
   size_t most_facets = 2'100'000;
-  /// The content of a file that the document names, as it names it. Errors say why there is none,
-  /// without a place. Without this function there are no files.
-  std::function<Result<std::string>(const std::string& file)> read_file;
+  /// The content of a file that the document names, as it names it; none if there is no such file,
+  /// which is a warning as in OpenSCAD. Errors say why it cannot be read, without a place. Without
+  /// this function no files are read.
+  std::function<Result<std::optional<std::string>>(const std::string& file)> read_file;
   /// The exact box of a solid, for resize(); without it the bounds of its tree stand for it.
   std::function<Box(const Model&)> solid_box;
 };

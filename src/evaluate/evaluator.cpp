@@ -237,9 +237,10 @@ void Evaluator::close() {
       polygons_.push_back(std::move(operands.front()));
     }
   } else if (frame.mode == Mode::kCorners && frame.separate && frame.operands > 1) {
-    warn_once(frame.node,
-              "the corners of what is left here are not known; for the hull or sum around it only "
-              "the first operand counts");
+    refuse(frame.node,
+           "hulls and sums of what is cut are not supported yet: of this only the first operand "
+           "counts",
+           "hulls and sums of what is cut are not supported yet");
     std::erase_if(corners_, [&, i = size_t{0}](CornerSet& set) mutable {
       const bool is_own = i++ >= frame.first_corners;
       if (is_own) set.is_convex = false;

@@ -18,6 +18,11 @@ constexpr std::string_view kKindUnread = "a file cannot be read; nothing is show
 }  // namespace
 
 const std::string* Files::content(const std::string& file, SourceLocation where) {
+  if (file.empty()) {
+    constexpr std::string_view kUnnamed = "no file is named; nothing is shown for it";
+    warnings_.add_unsupported(kUnnamed, where, kUnnamed, "no file is named");
+    return nullptr;
+  }
   const auto [found, is_new] = flat_.try_emplace(file);
   if (!is_new) return &found->second;
   const auto refuse = [&](const std::string& why) {
@@ -27,11 +32,16 @@ const std::string* Files::content(const std::string& file, SourceLocation where)
     flat_.erase(found);
     return nullptr;
   };
-  if (file.empty()) return refuse("no file is named");
   if (!options_.read_file) return refuse("files are not read here");
-  Result<std::string> content = options_.read_file(file);
+  Result<std::optional<std::string>> content = options_.read_file(file);
   if (!content) return refuse(content.error().message);
-  found->second = std::move(*content);
+  if (!*content) {
+    warnings_.add("there is no file of this name; nothing is shown for it", where,
+                  fmt::format("there is no file {}; nothing is shown for it", printable(file)));
+    flat_.erase(found);
+    return nullptr;
+  }
+  found->second = std::move(**content);
   return &found->second;
 }
 

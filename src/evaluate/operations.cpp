@@ -120,7 +120,10 @@ void Evaluator::close_linear_extrude(const Frame& frame, const LinearExtrude& ho
   }
   const Polygons polygons = take_united(frame);
   if (open_.back().mode != Mode::kCorners || !is_straight(how)) {
-    give(frame, sliced_extrusion(polygons, how, budget_));
+    LinearExtrude sliced = how;
+    // That version divides no edges.
+    if (options_.curves == Curves::kOpenscad2021) sliced.segments = 0;
+    give(frame, sliced_extrusion(polygons, sliced, budget_));
     return;
   }
   for (CornerSet& set : extruded_corners(polygons, how, open_.back().wants_convex, budget_)) {
@@ -153,7 +156,13 @@ void Evaluator::close_rotate_extrude(const Frame& frame, const RotateExtrude& ho
     add_revolution(frame, how, profile);
     return;
   }
-  const int n = facets > 0 ? facets : fragment_count(r, how.fragments, options_.curves);
+  int n = facets > 0 ? facets : fragment_count(r, how.fragments, options_.curves);
+  const double turn = std::fabs(how.angle_degrees);
+  if (options_.curves == Curves::kOpenscad2021 && turn > 0 && turn < 360) {
+    // That version cuts off the fraction of a partial turn's steps. So many fragments of a full
+    // turn, rounded up, make as many.
+    n = int(std::fmin(std::floor(std::fmax(std::floor(n * turn / 360), 1) * 360 / turn), n));
+  }
   give(frame, faceted_revolution(profile, how, n, budget_));
 }
 
@@ -284,7 +293,9 @@ void Evaluator::close_resize(const Frame& frame, const Resize& how) {
     if (polygons.is_empty()) return;
     const Rect box = bounds(polygons);
     const Vec2 size = box.hi - box.lo;
-    give(frame, transformed(resize_map(how, {size.x, size.y, 0}), std::move(polygons)));
+    Resize in_plane = how;
+    in_plane.size.z = 0;
+    give(frame, transformed(resize_map(in_plane, {size.x, size.y, 0}), std::move(polygons)));
   } else {
     std::vector<CornerSet> sets = take_corners(frame);
     Box box;

@@ -24,7 +24,9 @@ void resize_solid(Model& model, uint32_t node, const Resize& how, const Evaluate
                   Budget& budget) {
   const auto end = uint32_t(model.nodes.size());
   model.nodes[node].end = end;
-  if (!budget.work(end - node)) return;
+  // To find a box costs more than to compute with a corner.
+  constexpr uint64_t kPerBox = 1000, kPerNode = 20;
+  if (!budget.work(kPerBox + kPerNode * (end - node))) return;
   // What the node holds, as a model of its own: the last entries of all tables.
   Model part;
   part.file = model.file;

@@ -55,7 +55,9 @@ class LinearExtruder {
   double t(int j) const { return double(j) / slices_; }
 
   void add_cap(uint32_t a, uint32_t b, uint32_t c, const Ring& ring, double z) {
-    // The top may have collapsed to a line or a point. Its triangles still close the mesh.
+    // The top may have collapsed to a point, and then there is nothing, or to a line. Then its
+    // triangles have no area, but they close the mesh.
+    if (ring[a] == ring[b] || ring[b] == ring[c] || ring[c] == ring[a]) return;
     const double height = builder_[ring[a]].z;
     builder_.triangle(ring[a], ring[b], ring[c], builder_.facet({{0, 0, z}, z * height}));
   }
@@ -74,7 +76,7 @@ class LinearExtruder {
       if (is_planar)
         add_quad(corners, {facet, facet}, true);
       else
-        add_curved(corners);
+        add_curved(corners, prefers_02(corners, side.is_hole) != collapses(j + 1));
     }
   }
 
@@ -102,8 +104,7 @@ class LinearExtruder {
     }
   }
 
-  void add_curved(const std::array<uint32_t, 4>& q) {
-    const bool split_02 = prefers_02(q);
+  void add_curved(const std::array<uint32_t, 4>& q, bool split_02) {
     const auto facet = [&](uint32_t a, uint32_t b, uint32_t c) {
       return a == b || b == c || c == a ? 0 : builder_.facet_of(a, b, c);
     };
@@ -113,7 +114,11 @@ class LinearExtruder {
       add_quad(q, {facet(q[0], q[1], q[3]), facet(q[1], q[2], q[3])}, false);
   }
 
-  bool prefers_02(const std::array<uint32_t, 4>& q) const {
+  /// Whether the slice is a line or a point. OpenSCAD takes the longer diagonals below that.
+  bool collapses(int j) const { return j == slices_ && (how_.scale.x == 0 || how_.scale.y == 0); }
+
+  /// Whether the diagonal 02 is the shorter one. Equal ones follow the twist.
+  bool prefers_02(const std::array<uint32_t, 4>& q, bool is_hole) const {
     constexpr double kEqual = 1e-5;
     const auto flat_distance = [&](uint32_t a, uint32_t b) {
       const Vec3 between = builder_[a] - builder_[b];
@@ -121,7 +126,7 @@ class LinearExtruder {
     };
     const double d02 = flat_distance(q[0], q[2]), d13 = flat_distance(q[1], q[3]);
     if (2 * std::abs(d02 - d13) > kEqual * (d02 + d13)) return d02 < d13;
-    return how_.twist_degrees > 0;
+    return (how_.twist_degrees > 0) != is_hole;
   }
 
   const WeldedPolygons& base_;

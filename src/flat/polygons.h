@@ -1,6 +1,9 @@
 // Flat shapes as polygons, and what can be done with them: OpenSCAD's two-dimensional subsystem.
 //
-// Booleans, offsets and sums are Clipper's, on the grid that OpenSCAD rounds to.
+// Booleans, offsets and sums are Clipper's, on a grid of integers whose step is at most 2^-33 of
+// the largest coordinate (OpenSCAD's keeps about 8 decimal digits). Corners that an operation
+// leaves alone come back as they were written, to the last digit, so that faces which were written
+// to be flush stay so. Corners that are not finite are left out.
 #pragma once
 
 #include <array>
@@ -15,7 +18,9 @@ namespace whittle {
 using Contour = std::vector<Vec2>;
 
 /// A regularised region of the plane: outer contours run counter-clockwise, holes clockwise; they
-/// do not cross themselves or one another, though corners may touch.
+/// do not cross themselves or one another, though corners may touch. Operations hold to that to the
+/// last digit, and give only that; they take any contours, even-odd, and so also such as a mirror
+/// has turned round.
 struct Polygons {
   std::vector<Contour> contours;
 
@@ -41,7 +46,8 @@ Polygons subtract(std::span<const Polygons> operands);
 enum class Join { kRound, kMiter, kSquare };
 
 /// `delta` outwards, or inwards if it is negative. `fragments`: of a full circle of that radius,
-/// for kRound.
+/// for kRound; more than kMaxFacets are as many. Empty if delta is not finite. Miters go out to a
+/// million times delta, as OpenSCAD's do.
 Polygons offset(const Polygons& polygons, double delta, Join join, int fragments);
 
 /// Without holes.
@@ -50,14 +56,15 @@ Polygons filled(const Polygons& polygons);
 /// The convex hull of all of them.
 Polygons convex_hull(std::span<const Polygons> operands);
 
-/// The Minkowski sum of all of them, one after the other.
+/// The Minkowski sum of all of them, one after the other; empty if one is. Time grows with the
+/// product of the numbers of corners of two shapes, with less if one of them is convex.
 Polygons minkowski_sum(std::span<const Polygons> operands);
 
 /// OpenSCAD's polygon for a circle: n >= 3 corners, the first on +x.
 Contour circle(double r, int n);
 
 /// Each triangle three points, counter-clockwise, that are corners of the polygons. Every edge of
-/// a contour is an edge of exactly one triangle.
+/// a contour is an edge of exactly one triangle. Of contours that cross, see triangulation.h.
 std::vector<std::array<Vec2, 3>> triangulate(const Polygons& polygons);
 
 }  // namespace whittle

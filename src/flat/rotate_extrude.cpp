@@ -24,10 +24,8 @@ class RotateExtruder {
   RotateExtruder(const WeldedPolygons& profile, const Turn& turn) : profile_(profile), turn_(turn) {
     double least = 0;
     for (const Vec2 p : profile.points) least = std::min(least, p.x);
-    // A profile on the left, a turn to the right and a step by more than a half turn each turn the
-    // body inside out.
-    const bool over = std::abs(turn.angle_degrees) / turn.steps > 180;
-    flip_ = (least < 0) != ((turn.angle_degrees < 0) != over);
+    // A profile on the left and a turn to the right each turn the body inside out.
+    flip_ = (least < 0) != (turn.angle_degrees < 0);
   }
 
   TriangleMesh run() && {
@@ -69,13 +67,14 @@ class RotateExtruder {
       const uint32_t a = here[side.from], b = here[side.to];
       // On the axis nothing is swept.
       if (a == there[side.from] && b == there[side.to]) continue;
-      const uint32_t number = facet(plane(side, c, s, apothem));
+      const uint32_t number = builder_.facet(plane(side, c, s, apothem));
       triangle(a, there[side.from], there[side.to], number);
       triangle(a, there[side.to], b, number);
     }
   }
 
-  /// Of the trapezoid that a side sweeps in a step with the given middle.
+  /// Of the trapezoid that a side sweeps in a step with the given middle, outward whichever side of
+  /// the axis it is on.
   static Plane plane(const Side& side, double c, double s, double apothem) {
     const Vec2 from = side.line_from, along = side.line_to - from;
     if (along.y == 0) {
@@ -89,8 +88,10 @@ class RotateExtruder {
 
   void add_caps() {
     const double first = turn_.degrees(0), last = turn_.degrees(turn_.steps);
-    const uint32_t start = facet({{sin_degrees(first), -cos_degrees(first), 0}, 0});
-    const uint32_t end = facet({{-sin_degrees(last), cos_degrees(last), 0}, 0});
+    const double sign = flip_ ? -1 : 1;
+    const uint32_t start =
+        builder_.facet({Vec3{sin_degrees(first), -cos_degrees(first), 0} * sign, 0});
+    const uint32_t end = builder_.facet({Vec3{-sin_degrees(last), cos_degrees(last), 0} * sign, 0});
     for (const auto& [a, b, c] : triangulate(profile_)) {
       triangle(rings_.front()[a], rings_.front()[b], rings_.front()[c], start);
       triangle(rings_.back()[a], rings_.back()[c], rings_.back()[b], end);
@@ -120,10 +121,12 @@ TriangleMesh rotate_extrude(const Polygons& polygons, const RotateExtrude& how, 
   const WeldedPolygons profile = weld(polygons);
   if (profile.contours.empty()) return {};
   const bool is_full = std::abs(how.angle_degrees) >= 360;
-  const double angle = is_full ? 360 : how.angle_degrees;
+  double angle = is_full ? 360 : how.angle_degrees;
   const double most = std::max(kMaxSides / double(profile.points.size()), 3.0);
   const double full = std::clamp(double(facets), is_full ? 3.0 : 1.0, most);
   const int steps = std::max(int(std::ceil(full * std::abs(angle) / 360)), 1);
+  // One step of more than half a turn comes to the same place as a shorter one the other way.
+  if (steps == 1 && std::abs(angle) > 180) angle -= std::copysign(360, angle);
   return RotateExtruder(profile, {how.start_degrees, angle, steps, is_full}).run();
 }
 

@@ -35,6 +35,9 @@ std::vector<Side> sides(const WeldedPolygons& polygons) {
   for (const std::vector<uint32_t>& contour : polygons.contours) {
     const size_t n = contour.size();
     const auto at = [&](size_t i) { return polygons.points[contour[i % n]]; };
+    double twice_area = 0;
+    for (size_t i = 0; i < n; ++i) twice_area += cross(at(i) - at(0), at(i + 1) - at(0));
+    const bool is_hole = twice_area < 0;
     // From a corner that is a bend, so that no run is cut; any will do if there is none.
     size_t start = 0;
     while (start < n && is_straight(at(start + n - 1), at(start), at(start + 1), slack)) ++start;
@@ -47,7 +50,7 @@ std::vector<Side> sides(const WeldedPolygons& polygons) {
              is_straight(at(i), at(i + (end + 1 - i) / 2), at(end + 1), slack))
         ++end;
       for (size_t k = i; k < end; ++k)
-        all.push_back({contour[k % n], contour[(k + 1) % n], at(i), at(end)});
+        all.push_back({contour[k % n], contour[(k + 1) % n], at(i), at(end), is_hole});
       i = end;
     }
   }

@@ -24,9 +24,7 @@ std::optional<uint32_t> hexadecimal(std::string_view text, size_t count) {
 }
 
 void append_utf8(uint32_t code, std::string& text) {
-  const auto tail = [&](int shift) {
-    text += static_cast<char>(0x80 | ((code >> shift) & 0x3f));
-  };
+  const auto tail = [&](int shift) { text += static_cast<char>(0x80 | ((code >> shift) & 0x3f)); };
   if (code < 0x80) {
     text += static_cast<char>(code);
   } else if (code < 0x800) {

@@ -95,7 +95,7 @@ TEST(CsgReader, AnEmptyChildIsAnOperand) {
   EXPECT_EQ(tree_of("difference(){group(); cube(1);}"), "U(D(U() c1))");
   EXPECT_EQ(tree_of("difference(){group(){group(); group(){}} cube(1);}"), "U(D(U() c1))");
   EXPECT_EQ(tree_of("difference(){color([1,0,0,1]); cube(1);}"), "U(D(U() c1))");
-  EXPECT_EQ(tree_of("difference(){hull(){} cube(1);}"), "U(D(U() c1))");
+  EXPECT_EQ(tree_of("difference(){hull(){} cube(1);}"), "U(D(U() c2))") << "hull counts";
   EXPECT_EQ(tree_of("difference(){cube([0,1,1]); cube(1);}"), "U(D(c1 c2))");
   EXPECT_EQ(tree_of("intersection(){group(); cube(1);}"), "U(I(U() c1))");
   EXPECT_EQ(tree_of("intersection(){translate([1,2,3]); cube(1);}"), "U(I(U() c1))");
@@ -131,7 +131,7 @@ TEST(CsgReader, DisabledStatementsAreNotJudged) {
   const Read read = read_good("*polyhedron(points=[1],faces=[[9,9,9]]); *hull(){cube(foo=1);}");
   EXPECT_TRUE(read.warnings.empty());
   EXPECT_FALSE(read.unsupported);
-  EXPECT_EQ(read.model.statement_count, 2u);
+  EXPECT_EQ(read.model.statement_count, 3u);
 }
 
 TEST(CsgReader, RootLeavesNothingElseNotEvenItsAncestors) {
@@ -168,29 +168,30 @@ TEST(CsgReader, ARootMayBeAnythingOrEmpty) {
 
 TEST(CsgReader, ChildrenOfAPrimitiveAreIgnoredButCount) {
   const Read read = read_good("cube() sphere(); sphere(){cube(); hull();} cube(){}");
-  EXPECT_EQ(tree(read.model), "U(c1 s3 c5)");
+  EXPECT_EQ(tree(read.model), "U(c1 s3 c6)");
   ASSERT_EQ(read.warnings.size(), 2u);
   EXPECT_EQ(read.warnings[0],
             "t.csg:1:8: warning: cube takes no children; they are ignored (is a ';' missing?)");
   EXPECT_EQ(read.warnings[1], "t.csg:1:26: warning: sphere takes no children; they are ignored");
 }
 
-TEST(CsgReader, WhatIsNotSupportedIsNamedAndShownAsItsChildren) {
-  const Read read =
-      read_good("\nhull() { cube(); sphere(); }\n linear_extrude(height = 3) circle(2);");
-  EXPECT_EQ(tree(read.model), "U(U(c1 s2))");
+TEST(CsgReader, WhatIsNotSupportedIsNamed) {
+  const Read read = read_good("\ncube(); projection() cube();\n roof() square();");
+  EXPECT_EQ(tree(read.model), "U(c1 U() U())");
   ASSERT_TRUE(read.unsupported);
-  EXPECT_EQ(read.unsupported->message, "'hull' is not supported yet") << "the first one";
-  EXPECT_EQ(read.unsupported->where.line, 2u);
-  EXPECT_EQ(read.unsupported->where.column, 1u);
-  ASSERT_EQ(read.warnings.size(), 3u);
-  EXPECT_EQ(read.warnings[0],
-            "t.csg:2:1: warning: 'hull' is not supported yet, shown as the union of its children");
+  EXPECT_EQ(read.unsupported->message, "roofs are not supported");
+  EXPECT_EQ(read.unsupported->where, (SourceLocation{3, 2}));
+  ASSERT_EQ(read.warnings.size(), 2u);
   EXPECT_EQ(read.warnings[1],
-            "t.csg:3:2: warning: 'linear_extrude' is not supported yet, shown as the union of its "
-            "children");
-  EXPECT_EQ(read.warnings[2],
-            "t.csg:3:29: warning: 'circle' is not supported yet, nothing is shown for it");
+            "t.csg:3:2: warning: roofs are not supported; nothing is shown for it");
+}
+
+TEST(CsgReader, WhatIsNotSupportedDoesNotCountInTheBackground) {
+  for (const char* text : {"%roof() square(); cube();", "%group(){Cube() sphere(); x = 1;} cube();",
+                           "%import(file = \"part.xyz\"); cube();",
+                           "%group(){polyhedron([[0,0,0],[1,0,0],[0,1,0]],[[0,1,2]]);} cube();"}) {
+    EXPECT_FALSE(read_good(text).unsupported) << text;
+  }
 }
 
 TEST(CsgReader, AMisspeltNameIsNotCalledUnsupported) {
@@ -202,25 +203,15 @@ TEST(CsgReader, AMisspeltNameIsNotCalledUnsupported) {
             "t.csg:1:1: warning: 'Cube' is not known, shown as the union of its children");
 }
 
-TEST(CsgReader, EveryTwoDimensionalStatementIsUnsupported) {
-  for (const char* name : {"square", "circle", "polygon", "text", "import", "surface", "offset",
-                           "projection", "rotate_extrude", "minkowski", "resize", "roof", "fill"}) {
-    const Read read = read_good(std::string(name) + "(anything = [1], at = \"all\");");
-    ASSERT_TRUE(read.unsupported) << name;
-    EXPECT_EQ(read.unsupported->message, "'" + std::string(name) + "' is not supported yet");
-  }
-}
-
 TEST(CsgReader, ManyWarningsOfAKindAreSummedUp) {
   std::string text;
-  for (int i = 0; i < 50; ++i) text += "hull() cube(foo = 1);\n";
+  for (int i = 0; i < 50; ++i) text += "roof() cube(foo = 1);\n";
   const Read read = read_good(text);
   ASSERT_EQ(read.warnings.size(), 42u);
   EXPECT_EQ(read.warnings[40],
-            "t.csg: warning: 30 more times: 'hull' is not supported yet, shown as "
-            "the union of its children");
-  EXPECT_EQ(read.warnings[41],
             "t.csg: warning: 30 more times: cube: an argument is not known; it is ignored");
+  EXPECT_EQ(read.warnings[41],
+            "t.csg: warning: 30 more times: roofs are not supported; nothing is shown for it");
 }
 
 TEST(CsgReader, InventedNamesCannotFloodTheWarnings) {
@@ -233,7 +224,7 @@ TEST(CsgReader, DumpedTextMayHoldQuotes) {
   const Read read = read_good(
       "text(text = \"A\"b\", size = 10, spacing = 1, font = \"\");\n"
       "text(text = \"C:\\\", size = 10);\ncube();");
-  EXPECT_EQ(tree(read.model), "U(c1)");
+  EXPECT_EQ(read.model.statement_count, 3u);
 }
 
 TEST(CsgReader, ReadsTheViewOfTheFile) {

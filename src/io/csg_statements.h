@@ -11,8 +11,8 @@
 #include <string_view>
 
 #include "io/csg_values.h"
-#include "model/warnings.h"
 #include "model/facets.h"
+#include "model/warnings.h"
 
 namespace whittle {
 

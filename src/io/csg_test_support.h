@@ -29,8 +29,8 @@ inline std::string read_bad(std::string_view text, const ReadOptions& options = 
 }
 
 /// A model as `U(D(c1 T(s2)) %c3)`: the first letters of union, difference, intersection,
-/// transform, and paint; of cube, sphere, cylinder (y), polyhedron, halfspace with their ids; `%`
-/// and `#`.
+/// transform, paint, and body with its id; of cube, sphere, cylinder (y), polyhedron, halfspace,
+/// mesh with their ids; `%` and `#`.
 inline std::string tree(const Model& model) {
   std::string text;
   std::vector<uint32_t> ends;
@@ -48,11 +48,12 @@ inline std::string tree(const Model& model) {
     if (node.highlight) text += '#';
     if (node.kind == NodeKind::kPrimitive) {
       const Primitive& primitive = model.primitives.at(node.payload);
-      text += "csyph"[primitive.shape.index()];
+      text += "csyphm"[primitive.shape.index()];
       text += std::to_string(primitive.id);
       EXPECT_EQ(node.end, i + 1);
     } else {
-      text += "UDITP"[static_cast<int>(node.kind)];
+      text += "UDITP?B"[static_cast<int>(node.kind)];
+      if (node.kind == NodeKind::kBody) text += std::to_string(node.payload);
       text += '(';
       ends.push_back(node.end);
     }

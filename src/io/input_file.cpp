@@ -78,8 +78,9 @@ Result<std::string> read_bytes(const std::string& path, size_t most_bytes) {
   if (!is_file) return refuse("it is not a file");
   if (error != 0) return refuse(std::generic_category().message(error));
   if (bytes.size() > most_bytes) {
-    return refuse(fmt::format("with it more than the limit of bytes are read; --limit bytes=N "
-                              "raises it"));
+    return refuse(
+        fmt::format("with it more than the limit of bytes are read; --limit bytes=N "
+                    "raises it"));
   }
   return bytes;
 }

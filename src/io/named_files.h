@@ -10,10 +10,12 @@
 
 namespace whittle {
 
-/// Reads the bytes of a file by the name that a text in `folder` gives it (an empty folder is the
-/// current one). With `root`, only what lies in that folder tree, all links resolved. Of all that
-/// it reads together at most `most_bytes`. Errors: kInput, in words without the name.
-std::function<Result<std::string>(const std::string&)> named_files(
-    std::string folder, std::optional<std::string> root, size_t most_bytes);
+/// The bytes of a file; none if there is no such file.
+using NamedFiles = std::function<Result<std::optional<std::string>>(const std::string& name)>;
+
+/// Reads files by the names that a text in `folder` gives them (an empty folder is the current
+/// one). With `root`, only what lies in that folder tree, all links resolved. Of all that it reads
+/// together at most `most_bytes`. Errors: kInput, in words without the name.
+NamedFiles named_files(std::string folder, std::optional<std::string> root, size_t most_bytes);
 
 }  // namespace whittle

@@ -30,6 +30,17 @@ struct ReadLimits {
   size_t facets = 2'100'000;   ///< flat faces of all shapes together
 };
 
+/// How openscad evaluates a .scad file: what its command line says besides the files.
+struct FlattenOptions {
+  std::string
+      program{};         ///< a path, or a name on PATH; empty: what $OPENSCAD says, else "openscad"
+  bool renders = false;  ///< `$preview` is false
+  std::vector<std::string> definitions{};       ///< `name=value` in OpenSCAD's language
+  std::optional<std::string> parameter_file{};  ///< of the customizer, and a set in it
+  std::optional<std::string> parameter_set{};
+  std::vector<std::string> arguments{};  ///< more, passed on as they are
+};
+
 struct ReadOptions {
   Curves curves = Curves::kAuto;
   bool polish = true;  ///< rotations in `multmatrix` get back what printing took (polish.h)
@@ -42,6 +53,7 @@ struct ReadOptions {
   /// The exact box of a solid (subdivide/solid_bounds.h), for resize(); without it bounds() stand
   /// for it.
   std::function<Box(const Model&)> solid_box{};
+  FlattenOptions flatten{};
 };
 
 /// What was read.
@@ -53,6 +65,11 @@ struct Read {
   /// The first thing that was left out or replaced, if any: then the model may not be what was
   /// meant. What stands under `%` does not count.
   std::optional<Unsupported> unsupported;
+  /// That as a full message, `file:line:column: error: ...`; empty if there is nothing.
+  std::string refusal;
+  /// All files that were read for it: the one asked for, unless it is standard input, then those
+  /// that it names, in the order in which they were first asked for.
+  std::vector<std::string> files;
 };
 
 /// Reads .csg text. `file_name` is what messages call it. The result does not refer to `text`.
@@ -62,8 +79,9 @@ Result<Read> read_csg(std::string_view text, const std::string& file_name,
                       const ReadOptions& options = {});
 
 /// Reads a file; "-" is standard input. A name that ends in .scad is first evaluated by the
-/// openscad program, and messages then speak of `name (flattened)`, whose lines are those of the
-/// .csg text that openscad made. Errors: kInput, or kMachine if openscad cannot be run.
+/// openscad program; messages then quote the statement of its .csg text that they are about. A mesh
+/// or a drawing (.stl, .off, .obj, .3mf, .amf, .svg, .dxf) is read as by `import()`. Errors:
+/// kInput, or kMachine if openscad cannot be run.
 Result<Read> read_file(const std::string& path, const ReadOptions& options = {});
 
 }  // namespace whittle

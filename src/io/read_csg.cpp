@@ -1,5 +1,11 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "evaluate/evaluate.h"
 #include "io/csg_reader.h"
@@ -15,6 +21,7 @@ Result<Read> read_csg(std::string_view text, const std::string& file_name,
   const Result<std::string_view> checked = check_text(text, file_name, options.limits);
   if (!checked) return checked.error();
   Warnings warnings(file_name);
+  std::vector<std::string> files;
   Result<Document> document = read_document(*checked, file_name, options, warnings);
   if (!document) return document.error();
   EvaluateOptions evaluating{.curves = options.curves,
@@ -22,13 +29,23 @@ Result<Read> read_csg(std::string_view text, const std::string& file_name,
                              .read_file = nullptr,
                              .solid_box = options.solid_box};
   if (options.folder) {
-    evaluating.read_file =
-        named_files(*options.folder, options.import_root, options.limits.bytes);
+    evaluating.read_file = [&, read = named_files(*options.folder, options.import_root,
+                                                  options.limits.bytes)](const std::string& name) {
+      std::string path = (std::filesystem::path(*options.folder) / name).string();
+      if (std::ranges::find(files, path) == files.end()) files.push_back(std::move(path));
+      return read(name);
+    };
   }
   Result<Model> model = evaluate(std::move(*document), evaluating, warnings);
   if (!model) return model.error();
   const std::optional<Unsupported> unsupported = warnings.unsupported();
-  return Read{std::move(*model), warnings.take(), unsupported};
+  std::string refusal;
+  if (unsupported) {
+    refusal =
+        message_at(file_name, unsupported->where, fmt::format("error: {}", unsupported->message));
+  }
+  return Read{std::move(*model), warnings.take(), unsupported, std::move(refusal),
+              std::move(files)};
 }
 
 }  // namespace whittle

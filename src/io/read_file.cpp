@@ -1,35 +1,81 @@
 // Files by name: what kind they are decides how they are read.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <string>
-#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "io/input_file.h"
+#include "io/input_kinds.h"
+#include "io/openscad_messages.h"
+#include "io/quoted_places.h"
 #include "io/read.h"
 #include "io/scad.h"
 
 namespace whittle {
 namespace {
 
+namespace fs = std::filesystem;
+
+/// All messages, put in other words.
+template <class Rewrite>
+Result<Read> rewrite(Result<Read> read, Rewrite&& in_other_words) {
+  if (!read) return Error{read.error().kind, in_other_words(read.error().message)};
+  for (std::string& warning : read->warnings) warning = in_other_words(warning);
+  if (!read->refusal.empty()) read->refusal = in_other_words(read->refusal);
+  return read;
+}
+
 Result<Read> read_scad(const std::string& path, const ReadOptions& options) {
-  const Result<Flattened> flattened = flatten_scad(path);
+  Result<Flattened> flattened = flatten_scad(path, options.flatten);
   if (!flattened) return flattened.error();
-  Result<Read> read = read_csg(flattened->csg, path + " (flattened)", options);
+  Result<Read> read =
+      rewrite(read_csg(flattened->csg, path, options), QuotedPlaces(flattened->csg, path));
   if (!read) return read;
+  read->model.view = flattened->view;
+  read->files = std::move(flattened->files);
   // What openscad complains about comes before what whittle does.
   std::vector<std::string> warnings;
-  std::string_view rest = flattened->messages;
-  while (!rest.empty()) {
-    const size_t newline = std::min(rest.find('\n'), rest.size());
-    const std::string_view line = rest.substr(0, newline);
-    rest.remove_prefix(std::min(newline + 1, rest.size()));
-    if (!line.empty()) warnings.push_back(fmt::format("{}: openscad: {}", path, line));
+  for (const std::string& line : lines_of(flattened->messages)) {
+    warnings.push_back(fmt::format("{}: openscad: {}", path, line));
   }
   read->warnings.insert(read->warnings.begin(), warnings.begin(), warnings.end());
+  return read;
+}
+
+Result<Read> read_shape(const std::string& path, const ReadOptions& options) {
+  // That it is not there is an error here, while what import() misses is a warning.
+  if (::access(path.c_str(), R_OK) != 0) {
+    return Error{ErrorKind::kInput, fmt::format("{}: error: cannot be read: {}", path,
+                                                std::generic_category().message(errno))};
+  }
+  const std::string name = fs::path(path).filename().string();
+  Result<Read> read = read_csg(fmt::format("import({});", quoted_string(name)), path, options);
+  // The place is in a text that is not there, and so is the name of the file once more.
+  return rewrite(std::move(read), [&](const std::string& message) {
+    std::string rest = without_place(message, path);
+    const std::string twice = fmt::format(": {}: ", name);
+    if (const size_t at = rest.find(twice, path.size()); at != std::string::npos) {
+      rest.replace(at, twice.size(), ": ");
+    }
+    return rest;
+  });
+}
+
+Result<Read> read_plain(const std::string& path, const ReadOptions& options) {
+  const std::string name = path == "-" ? "<stdin>" : path;
+  const Result<std::string> text = read_text(path, std::min(options.limits.bytes, kMostTextBytes));
+  if (!text) return text.error();
+  if (const std::optional<std::string> foreign = describe_foreign(*text)) {
+    return Error{ErrorKind::kInput, fmt::format("{}: error: {}", name, *foreign)};
+  }
+  Result<Read> read = read_csg(*text, name, options);
+  if (read && path != "-") read->files.insert(read->files.begin(), path);
   return read;
 }
 
@@ -37,11 +83,16 @@ Result<Read> read_scad(const std::string& path, const ReadOptions& options) {
 
 Result<Read> read_file(const std::string& path, const ReadOptions& given) {
   ReadOptions options = given;
-  if (!options.folder) options.folder = std::filesystem::path(path).parent_path().string();
-  if (path.ends_with(".scad")) return read_scad(path, options);
-  const Result<std::string> text = read_text(path, std::min(options.limits.bytes, kMostTextBytes));
-  if (!text) return text.error();
-  return read_csg(*text, path == "-" ? "<stdin>" : path, options);
+  if (!options.folder) options.folder = fs::path(path).parent_path().string();
+  switch (kind_of_input(path)) {
+    case InputKind::kScad:
+      return read_scad(path, options);
+    case InputKind::kShape:
+      return read_shape(path, options);
+    case InputKind::kCsg:
+      break;
+  }
+  return read_plain(path, options);
 }
 
 }  // namespace whittle

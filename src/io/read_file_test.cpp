@@ -53,10 +53,10 @@ class ReadFileTest : public testing::Test {
 };
 
 TEST_F(ReadFileTest, ReadsAFileAndCallsItByItsName) {
-  const std::string path = write("a.csg", "cube();\nhull();");
+  const std::string path = write("a.csg", "cube();\nroof() square();");
   const Result<Read> read = read_file(path);
   ASSERT_TRUE(read);
-  EXPECT_EQ(tree(read->model), "U(c1)");
+  EXPECT_EQ(tree(read->model), "U(c1 U())");
   EXPECT_EQ(read->model.file, path);
   ASSERT_EQ(read->warnings.size(), 1u);
   EXPECT_TRUE(read->warnings[0].starts_with(path + ":2:1: warning: "));
@@ -85,10 +85,10 @@ TEST_F(ReadFileTest, WhatCannotBeReadIsSaid) {
 
 TEST_F(ReadFileTest, AScadFileIsFlattened) {
   install_openscad("echo 'WARNING: odd' >&2\ncp \"$3\" \"$2\"\n");
-  const std::string path = write("it's $(a) file.scad", "cube();\nhull() sphere();");
+  const std::string path = write("it's $(a) file.scad", "cube();\nroof() sphere();");
   const Result<Read> read = read_file(path);
   ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(tree(read->model), "U(c1 s2)");
+  EXPECT_EQ(tree(read->model), "U(c1 U())");
   EXPECT_EQ(read->model.file, path + " (flattened)");
   ASSERT_EQ(read->warnings.size(), 2u);
   EXPECT_EQ(read->warnings[0], path + ": openscad: WARNING: odd");

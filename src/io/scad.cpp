@@ -5,18 +5,20 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstdlib>
-#include <memory>
 #include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "io/child_process.h"
+#include "io/dependencies.h"
 #include "io/input_file.h"
-#include "io/pending_files.h"
+#include "io/input_kinds.h"
+#include "io/openscad_messages.h"
+#include "io/openscad_view.h"
+#include "io/private_folder.h"
 
 namespace whittle {
 namespace {
@@ -29,55 +31,10 @@ std::string reason(int error) {
   return std::generic_category().message(error);
 }
 
-/// A folder that nobody else can read, and that goes with what openscad wrote to it.
-class PrivateFolder {
- public:
-  static std::optional<PrivateFolder> create() {
-    const char* const temporary = std::getenv("TMPDIR");
-    // Not by mkdtemp, which tells the name only when the folder is there: an interruption may come
-    // before it is known what to remove.
-    constexpr int kMostAttempts = 1000;
-    constexpr mode_t kOnlyMine = 0700;
-    static std::atomic<unsigned> next_number = 0;
-    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
-      PrivateFolder folder(fmt::format("{}/whittle-{}-{}",
-                                       temporary && *temporary == '/' ? temporary : "/tmp",
-                                       ::getpid(), next_number++));
-      if (::mkdir(folder.path_.c_str(), kOnlyMine) == 0) return folder;
-      folder.path_.clear();
-      if (errno != EEXIST) break;
-    }
-    return std::nullopt;
+std::optional<std::string> find_program(const std::string& name) {
+  if (name.find('/') != std::string::npos) {
+    return ::access(name.c_str(), X_OK) == 0 ? std::optional(name) : std::nullopt;
   }
-  PrivateFolder(PrivateFolder&& other) noexcept
-      : path_(std::exchange(other.path_, {})), pending_(std::move(other.pending_)) {}
-  PrivateFolder& operator=(PrivateFolder&&) = delete;
-  ~PrivateFolder() {
-    if (path_.empty()) return;
-    ::unlink(csg().c_str());
-    ::unlink(messages().c_str());
-    ::rmdir(path_.c_str());
-  }
-
-  std::string csg() const { return path_ + "/model.csg"; }
-  std::string messages() const { return path_ + "/messages"; }
-
- private:
-  explicit PrivateFolder(std::string path)
-      : path_(std::move(path)), pending_(std::make_unique<Pending>(*this)) {}
-
-  struct Pending {
-    explicit Pending(const PrivateFolder& folder)
-        : path(folder.path_), csg(folder.csg()), messages(folder.messages()) {}
-    // The folder first: what is pending is removed from the latest to the first.
-    PendingFile path, csg, messages;
-  };
-
-  std::string path_;
-  std::unique_ptr<Pending> pending_;
-};
-
-std::optional<std::string> find_program(const char* name) {
   const char* const variable = std::getenv("PATH");
   std::string_view rest = variable ? variable : "";
   while (!rest.empty()) {
@@ -92,78 +49,34 @@ std::optional<std::string> find_program(const char* name) {
   return std::nullopt;
 }
 
-/// Several lines as one.
-std::string in_one_line(std::string_view text) {
-  std::string line;
-  for (const char c : text) {
-    if (c != '\n') {
-      line += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-    } else if (!line.empty() && !line.ends_with("; ")) {
-      line += "; ";
-    }
-  }
-  if (line.ends_with("; ")) line.resize(line.size() - 2);
-  return line;
+/// What the user calls openscad.
+std::string name_of_openscad(const FlattenOptions& options) {
+  if (!options.program.empty()) return options.program;
+  const char* const variable = std::getenv("OPENSCAD");
+  return variable && *variable != '\0' ? variable : "openscad";
 }
 
-/// The place that a message of openscad's ends with, ` in file NAME, line NUMBER`, as `file:line`,
-/// and the message before it; the file's own name where it names none.
-struct Said {
-  std::string place;
-  std::string_view what;
-};
-
-Said split_place(std::string_view message, const std::string& path, const std::string& source) {
-  constexpr std::string_view kFile = " in file ", kLine = ", line ";
-  const size_t file = message.rfind(kFile), line = message.rfind(kLine);
-  if (file == std::string_view::npos || line == std::string_view::npos ||
-      line < file + kFile.size()) {
-    return {path, message};
-  }
-  const std::string_view number = message.substr(line + kLine.size());
-  if (number.empty() || number.find_first_not_of("0123456789") != std::string_view::npos) {
-    return {path, message};
-  }
-  const size_t name_start = file + kFile.size();
-  const std::string_view name = message.substr(name_start, line - name_start);
-  // openscad calls files as they are seen from the source's folder, and by where links lead.
-  const bool is_source = name.empty() || name == source.substr(source.rfind('/') + 1);
-  const std::string folder = name.starts_with('/') ? "" : path.substr(0, path.rfind('/') + 1);
-  return {fmt::format("{}:{}", is_source ? path : fmt::format("{}{}", folder, name), number),
-          message.substr(0, file)};
-}
-
-/// The first error among what openscad said. It goes on after one, without what comes then, and
-/// its exit code may be 0.
-std::optional<Error> first_error(std::string_view messages, const std::string& path,
-                                 const std::string& source) {
-  constexpr std::string_view kMark = "ERROR: ";
-  for (size_t start = 0; start < messages.size();) {
-    const size_t end = std::min(messages.find('\n', start), messages.size());
-    const std::string_view line = messages.substr(start, end - start);
-    start = end + 1;
-    if (!line.starts_with(kMark)) continue;
-    const Said said = split_place(line.substr(kMark.size()), path, source);
-    return failure(ErrorKind::kInput, said.place, "openscad: " + in_one_line(said.what));
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
-Result<Flattened> flatten_scad(const std::string& path) {
-  const std::optional<std::string> program = find_program("openscad");
-  if (!program) {
+Error not_found(const std::string& path, const FlattenOptions& options) {
+  const std::string name = name_of_openscad(options);
+  if (name == "openscad") {
     return failure(ErrorKind::kMachine, path,
                    "a .scad file is evaluated by openscad, which is not on PATH; install it "
-                   "(apt-get install openscad), or export the model as .csg elsewhere");
+                   "(apt-get install openscad), name another one (--openscad PATH), or export the "
+                   "model as .csg elsewhere");
   }
-  // openscad changes its folder to that of the source, so no path may be relative.
+  const bool is_path = name.find('/') != std::string::npos;
+  return failure(
+      ErrorKind::kMachine, path,
+      fmt::format("there is no program '{}'{} to evaluate it ({})", name, is_path ? "" : " on PATH",
+                  options.program.empty() ? "$OPENSCAD names it" : "--openscad names it"));
+}
+
+/// The file's name as openscad is given it: openscad changes its folder to that of the source, so
+/// no path may be relative.
+Result<std::string> absolute_source(const std::string& path) {
   char* const resolved = ::realpath(path.c_str(), nullptr);
-  if (!resolved) {
-    return failure(ErrorKind::kInput, path, "cannot be read: " + reason(errno));
-  }
-  const std::string source = resolved;
+  if (!resolved) return failure(ErrorKind::kInput, path, "cannot be read: " + reason(errno));
+  std::string source = resolved;
   std::free(resolved);
   // openscad crashes on the one and says of the other that it can't open it.
   struct stat about {};
@@ -172,15 +85,78 @@ Result<Flattened> flatten_scad(const std::string& path) {
     return failure(ErrorKind::kInput, path,
                    "cannot be read: " + reason(is_folder ? EISDIR : errno));
   }
+  return source;
+}
+
+std::vector<std::string> command_line(const std::string& source, const FlattenOptions& options,
+                                      const PrivateFolder& folder) {
+  std::vector<std::string> words = {"openscad", "-o", folder.csg(),
+                                    source,     "-d", folder.dependencies()};
+  // A value that begins with a dash is taken for an option, unless it is joined to its own.
+  if (options.renders) words.emplace_back("--render=force");
+  for (const std::string& definition : options.definitions) words.push_back("-D" + definition);
+  words.push_back("-D" + view_question());
+  if (options.parameter_file) words.push_back("-p" + *options.parameter_file);
+  if (options.parameter_set) words.push_back("-P" + *options.parameter_set);
+  words.insert(words.end(), options.arguments.begin(), options.arguments.end());
+  return words;
+}
+
+/// The files that openscad read, the source first and by the user's name for it.
+std::vector<std::string> files_read(const std::string& path, const std::string& source,
+                                    const PrivateFolder& folder) {
+  std::vector<std::string> files{path};
+  const Result<std::string> text = read_text(folder.dependencies());
+  if (!text) return files;
+  for (std::string& file : read_dependencies(*text)) {
+    if (file != source) files.push_back(std::move(file));
+  }
+  return files;
+}
+
+AssignedViews assigned_views(const std::string& source_text, const std::vector<std::string>& files,
+                             const FlattenOptions& options) {
+  AssignedViews assigned;
+  find_assigned_views(source_text, assigned);
+  for (const std::string& definition : options.definitions) {
+    find_assigned_views(definition, assigned);
+  }
+  for (const std::string& file : files) {
+    // Without the first, which is the source.
+    if (&file == &files.front() || kind_of_input(file) != InputKind::kScad) continue;
+    if (const Result<std::string> text = read_text(file)) find_assigned_views(*text, assigned);
+  }
+  return assigned;
+}
+
+}  // namespace
+
+std::optional<std::string> find_openscad(const FlattenOptions& options) {
+  return find_program(name_of_openscad(options));
+}
+
+Result<Flattened> flatten_scad(const std::string& path, const FlattenOptions& options) {
+  const std::optional<std::string> program = find_openscad(options);
+  if (!program) return not_found(path, options);
+  const Result<std::string> source = absolute_source(path);
+  if (!source) return source.error();
+  const Result<std::string> source_text = read_text(*source);
+  if (!source_text) return failure(ErrorKind::kInput, path, "cannot be read");
+  if (const std::optional<std::string> foreign = describe_foreign(*source_text)) {
+    return failure(ErrorKind::kInput, path, *foreign);
+  }
   const std::optional<PrivateFolder> folder = PrivateFolder::create();
   if (!folder) {
     return failure(ErrorKind::kMachine, path, "no temporary folder: " + reason(errno));
   }
 
-  const std::string csg = folder->csg();
-  const char* const arguments[] = {"openscad", "-o", csg.c_str(), source.c_str(), nullptr};
+  const std::vector<std::string> words = command_line(*source, options, *folder);
+  std::vector<const char*> arguments;
+  for (const std::string& word : words) arguments.push_back(word.c_str());
+  arguments.push_back(nullptr);
   int error = 0;
-  const std::optional<int> status = run_program(*program, arguments, folder->messages(), error);
+  const std::optional<int> status =
+      run_program(*program, arguments.data(), folder->messages(), error);
   if (!status) {
     return failure(ErrorKind::kMachine, path,
                    fmt::format("{} cannot be run: {}", *program, reason(error)));
@@ -189,12 +165,15 @@ Result<Flattened> flatten_scad(const std::string& path) {
   if (Result<std::string> messages = read_text(folder->messages())) {
     flattened.messages = std::move(*messages);
   }
-  if (std::optional<Error> error_said = first_error(flattened.messages, path, source)) {
+  flattened.files = files_read(path, *source, *folder);
+  flattened.view =
+      take_view(flattened.messages, assigned_views(*source_text, flattened.files, options));
+  if (std::optional<Error> error_said = first_error(flattened.messages, path, *source)) {
     return *std::move(error_said);
   }
-  Result<std::string> text = read_text(csg);
+  Result<std::string> text = read_text(folder->csg());
   if (*status != 0 || !text) {
-    const std::string said = in_one_line(flattened.messages);
+    const std::string said = why_it_ended(flattened.messages);
     return failure(ErrorKind::kInput, path,
                    fmt::format("openscad cannot evaluate it{}{}", said.empty() ? "" : ": ", said));
   }

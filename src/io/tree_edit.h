@@ -15,7 +15,8 @@ inline constexpr uint32_t kRemoved = 0;
 void remove_marked(Model& model);
 
 /// Reduces the document to the subtree at `root`, which becomes the only child of nodes[0], and to
-/// what the nodes in it name: primitives, leaves, transforms and so on. Nodes may be marked as removed, but not `root`.
+/// what the nodes in it name: primitives, leaves, transforms and so on. Nodes may be marked as
+/// removed, but not `root`.
 void keep_subtree(Document& document, uint32_t root);
 
 }  // namespace whittle

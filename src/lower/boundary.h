@@ -30,11 +30,13 @@ class Boundary {
 
   /// Corners of triangles are no farther than this from the planes of their faces.
   double slack() const { return slack_; }
-  /// Measures that anew: `distance(face, point)` from the plane of a face. `rounding`: no less
-  /// than.
+  /// What no distance can be told from.
+  double rounding() const { return rounding_; }
+  /// Measures the slack anew: `distance(face, point)` from the plane of a face; no less than
+  /// `rounding`.
   template <class Distance>
   void measure_slack(double rounding, const Distance& distance) {
-    slack_ = rounding;
+    slack_ = rounding_ = rounding;
     for (const Triangle& triangle : triangles_)
       for (const uint32_t corner : triangle.corners)
         slack_ = std::max(slack_, 2 * distance(triangle.face, points_[corner]));
@@ -71,7 +73,7 @@ class Boundary {
   std::vector<Vec3> points_;
   std::vector<Triangle> triangles_;  ///< in the order of the leaves
   std::vector<Node> nodes_;          ///< the root first
-  double slack_ = 0;
+  double slack_ = 0, rounding_ = 0;
 };
 
 template <class Visit>

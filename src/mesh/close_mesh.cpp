@@ -7,7 +7,9 @@
 #include "base/box.h"
 #include "mesh/cut_face.h"
 #include "mesh/find_facets.h"
+#include "mesh/mend_cracks.h"
 #include "mesh/turn_faces.h"
+#include "mesh/turn_parts.h"
 #include "mesh/weld_points.h"
 
 namespace whittle {
@@ -25,27 +27,6 @@ double digit_error(const Box& box, int digits) {
   const double largest = max_component(max(abs(box.lo), abs(box.hi)));
   if (digits <= 0 || !(largest > 0)) return 0;
   return 0.5 * std::pow(10, std::floor(std::log10(largest)) + 1 - digits);
-}
-
-double volume_of(const std::vector<Vec3>& points, const Corners& t, Vec3 origin) {
-  return dot(points[t[0]] - origin, cross(points[t[1]] - origin, points[t[2]] - origin)) / 6;
-}
-
-/// The winding number of some triangles about a point: the sum of the solid angles they are seen at
-/// (van Oosterom and Strackee, The Solid Angle of a Plane Triangle, 1983).
-double winding_of(const std::vector<Vec3>& points, const std::vector<Corners>& triangles,
-                  const std::vector<uint32_t>& part_of, const std::vector<uint8_t>& counts,
-                  Vec3 p) {
-  double sum = 0;
-  for (size_t t = 0; t < triangles.size(); ++t) {
-    if (!counts[part_of[t]]) continue;
-    const Vec3 a = points[triangles[t][0]] - p, b = points[triangles[t][1]] - p,
-               c = points[triangles[t][2]] - p;
-    const double la = length(a), lb = length(b), lc = length(c);
-    sum += 2 * std::atan2(dot(a, cross(b, c)),
-                          la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
-  }
-  return sum / (4 * std::numbers::pi);
 }
 
 /// Triangles without those of no extent.
@@ -119,36 +100,6 @@ void remove_films(std::vector<Corners>& triangles) {
   triangles.resize(kept);
 }
 
-/// Turns the parts that are inside out: see close_mesh().
-void turn_parts(const std::vector<Vec3>& points, std::vector<Corners>& triangles,
-                const MeshParts& parts) {
-  const size_t count = parts.is_open.size();
-  if (triangles.empty()) return;
-  const Vec3 origin = points[triangles[0][0]];
-  std::vector<double> volume(count, 0);
-  std::vector<uint32_t> corner_of(count, 0);
-  for (size_t t = 0; t < triangles.size(); ++t) {
-    volume[parts.part_of[t]] += volume_of(points, triangles[t], origin);
-    corner_of[parts.part_of[t]] = triangles[t][0];
-  }
-  double all = 0;
-  for (size_t i = 0; i < count; ++i)
-    if (!parts.is_open[i]) all += volume[i];
-  std::vector<uint8_t> turned(count, all < 0);
-  // Where there are very many parts, files do not come with cavities in them.
-  constexpr size_t kMostParts = 1000;
-  std::vector<uint8_t> others(count);
-  for (size_t i = 0; i < count && count <= kMostParts; ++i) {
-    if (parts.is_open[i] || (volume[i] < 0) == bool(turned[i])) continue;
-    for (size_t k = 0; k < count; ++k) others[k] = k != i && !parts.is_open[k];
-    const double around =
-        winding_of(points, triangles, parts.part_of, others, points[corner_of[i]]);
-    if (std::fabs(around) < 0.5) turned[i] = !turned[i];
-  }
-  for (size_t t = 0; t < triangles.size(); ++t)
-    if (turned[parts.part_of[t]]) std::swap(triangles[t][1], triangles[t][2]);
-}
-
 }  // namespace
 
 ClosedMesh close_mesh(const RawMesh& raw, int digits) {
@@ -168,7 +119,17 @@ ClosedMesh close_mesh(const RawMesh& raw, int digits) {
     const std::vector<uint32_t> first = weld_points(raw.points, error);
     triangles = cut_faces(raw, first);
     remove_films(triangles);
-    const MeshParts parts = turn_faces(raw.points, triangles);
+    MeshParts parts = turn_faces(raw.points, triangles);
+    // A corner may be off by an error along each axis, and so may the edge that it is to lie on.
+    const double reach = std::numbers::sqrt3 * tolerance;
+    constexpr int kPasses = 2;
+    for (int pass = 0; pass < kPasses && parts.open_edges > 0; ++pass) {
+      if (!mend_cracks(raw.points, triangles, reach)) break;
+      remove_films(triangles);
+      const size_t turned = parts.turned;
+      parts = turn_faces(raw.points, triangles);
+      parts.turned += turned;
+    }
     closed.open_edges = parts.open_edges;
     closed.first_open = parts.first_open;
     closed.turned_faces = parts.turned;

@@ -23,6 +23,22 @@ double longest_edge(const TriangleMesh& mesh, const TriangleMesh::Triangle& t) {
   return std::max(length(b - a), std::max(length(c - b), length(a - c)));
 }
 
+/// Unit; for a triangle of no area any that is square to its longest edge.
+Vec3 normal_of(const TriangleMesh& mesh, const TriangleMesh::Triangle& t) {
+  const Vec3 area = area_of(mesh, t);
+  // Of numbers smaller than this the inverse is none.
+  constexpr double kNoArea = 1e-300;
+  if (length(area) > kNoArea) return normalize(area);
+  const Vec3 a = mesh.points[t.corners[0]], b = mesh.points[t.corners[1]],
+             c = mesh.points[t.corners[2]];
+  Vec3 along = b - a;
+  for (const Vec3 edge : {c - b, a - c})
+    if (length(edge) > length(along)) along = edge;
+  along = along * (length(along) > kNoArea ? 1 / length(along) : 0);
+  const Vec3 across = std::fabs(along.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  return normalize(across - along * dot(across, along));
+}
+
 /// Of every triangle its neighbours over edges that only two triangles share.
 std::vector<Corners> neighbours_of(const TriangleMesh& mesh) {
   std::vector<Corners> corners;
@@ -72,7 +88,7 @@ class FacetFinder {
  private:
   void grow(uint32_t seed) {
     const auto facet = uint32_t(mesh_.facets.size());
-    const Vec3 n = normalize(area_of(mesh_, mesh_.triangles[seed]));
+    const Vec3 n = normal_of(mesh_, mesh_.triangles[seed]);
     const double d = dot(n, mesh_.points[mesh_.triangles[seed].corners[0]]);
     members_.assign(1, seed);
     mesh_.triangles[seed].facet = facet;
@@ -105,7 +121,8 @@ class FacetFinder {
         box.include(mesh_.points[corner]);
     }
     Plane plane{normalize(area), 0};
-    if (!(dot(plane.n, seed) > 0.5)) plane.n = seed;
+    // Where there is hardly any area it tells nothing, not even a number.
+    if (!(dot(plane.n, seed) > 0.5) || !is_finite(plane.n)) plane.n = seed;
     const Vec3 size = box.size();
     const int axis = size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2;
     if (size[axis] <= tolerance_ && std::fabs(plane.n[axis]) > 0.5) {

@@ -1,8 +1,7 @@
-#include <png.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/decode_png.h"
 #include "mesh/formats.h"
 #include "mesh/mesh_files.h"
 #include "mesh/text_scanner.h"
@@ -52,28 +51,15 @@ Result<Heights> read_text(std::string_view content, size_t most_values) {
 
 /// The brightness in percent; the bottom row of the picture is y = 0.
 Result<Heights> read_png(std::string_view content, bool invert, size_t most_values) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  const auto fail = [&](std::string message) {
-    png_image_free(&image);
-    return mesh_error(std::move(message));
-  };
-  if (!png_image_begin_read_from_memory(&image, content.data(), content.size()))
-    return fail(std::string("this is no readable PNG: ") + image.message);
-  image.format = PNG_FORMAT_RGBA;
-  if (uint64_t(image.width) * image.height > most_values) {
-    png_image_free(&image);
-    return too_many_triangles(4 * most_values);
-  }
-  std::vector<uint8_t> pixels(PNG_IMAGE_SIZE(image));
-  if (!png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr))
-    return fail(std::string("this is no readable PNG: ") + image.message);
-  Heights heights{image.width, image.height, {}, 1};
+  const Result<PngPixels> pixels = decode_png(content, most_values);
+  if (!pixels) return pixels.error();
+  Heights heights{pixels->width, pixels->height, {}, 1};
   heights.values.reserve(heights.columns * heights.rows);
   for (size_t y = heights.rows; y-- > 0;)
     for (size_t x = 0; x < heights.columns; ++x) {
-      const uint8_t* const rgba = &pixels[4 * (y * heights.columns + x)];
-      const double luma = 0.2126 * rgba[0] + 0.7152 * rgba[1] + 0.0722 * rgba[2];
+      const uint8_t* const rgb = &pixels->rgb[3 * (y * heights.columns + x)];
+      const double luma = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+      // Of bytes, as OpenSCAD turns them over; not 255 less.
       const double height = (invert ? 1 - luma : luma) * 100 / 255;
       heights.values.push_back(height);
       heights.lowest = std::min(heights.lowest, height);

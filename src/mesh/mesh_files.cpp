@@ -18,9 +18,8 @@ struct Format {
 };
 
 constexpr Format kFormats[] = {
-    {".stl", read_stl},
-    {".off", read_off},
-    {".obj", read_obj},
+    {".stl", read_stl}, {".off", read_off}, {".obj", read_obj},
+    {".amf", read_amf}, {".3mf", read_3mf},
 };
 
 const Format* format_of(std::string_view file_name) {

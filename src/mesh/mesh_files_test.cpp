@@ -20,15 +20,6 @@ std::string error(std::string_view content, std::string_view name) {
   return mesh ? "none" : mesh.error().message;
 }
 
-double volume(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles)
-    sum += dot(mesh.points[t.corners[0]],
-               cross(mesh.points[t.corners[1]], mesh.points[t.corners[2]])) /
-           6;
-  return sum;
-}
-
 constexpr const char* kTriangle =
     "facet normal 0 0 1\n outer loop\n vertex 0 0 1\n vertex 1e0 0 +1\n vertex 0 1 1\n endloop\n"
     "endfacet\n";
@@ -99,26 +90,6 @@ TEST(MeshFiles, Obj) {
   EXPECT_EQ(mesh.faces[1], mesh.faces[0]);
   EXPECT_EQ(error("v 0 0 0\nf 1 2 3\n", "x.obj"), "a face has a corner that is no vertex");
   EXPECT_EQ(error("v 0 0 0\nf 0 1 1\n", "x.obj"), "a face has a corner that is no vertex");
-}
-
-TEST(MeshFiles, HeightMapText) {
-  const Result<RawMesh> raw = read_height_map("# c\n1 2 3\n4 5\n\n7 8 9 10\n", {}, kMany);
-  ASSERT_TRUE(raw);
-  const TriangleMesh mesh = close_mesh(*raw, 0).mesh;
-  // Four columns, three rows; what is missing is 0, and the bottom is one below 1.
-  EXPECT_EQ(mesh.points.size(), 12u + 6 + 10 + 1);
-  double sum = 0;  // of the four triangles' mean heights in each square: the mean of its corners
-  const double h[3][4] = {{1, 2, 3, 0}, {4, 5, 0, 0}, {7, 8, 9, 10}};
-  for (int y = 0; y < 2; ++y)
-    for (int x = 0; x < 3; ++x) sum += (h[y][x] + h[y][x + 1] + h[y + 1][x] + h[y + 1][x + 1]) / 4;
-  EXPECT_NEAR(volume(mesh), sum, 1e-12);
-  EXPECT_FALSE(read_height_map("1 2\n3 x\n", {}, kMany));
-  EXPECT_FALSE(read_height_map("1 nan\n3 4\n", {}, kMany));
-  EXPECT_TRUE(read_height_map("1 2 3\n", {}, kMany)->triangles.empty());
-  EXPECT_FALSE(read_height_map("1 2 3\n4 5 6\n", {}, 20));
-  HeightMap centered;
-  centered.center = true;
-  EXPECT_EQ(read_height_map("1 2 3\n4 5 6\n", centered, kMany)->points[0], (Vec3{-1, -0.5, 1}));
 }
 
 }  // namespace

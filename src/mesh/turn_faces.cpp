@@ -63,7 +63,9 @@ std::vector<EdgeUse> around(std::span<const Vec3> points, const std::vector<Corn
     for (const uint32_t corner : triangles[use.triangle])
       if (corner != a && corner != b) third = points[corner];
     const Vec3 way = third - points[a];
-    sorted.push_back({std::atan2(dot(way, v), dot(way, u)), use});
+    const double angle = std::atan2(dot(way, v), dot(way, u));
+    // Of an edge shorter than the inverse of the largest number there is no direction.
+    sorted.push_back({std::isfinite(angle) ? angle : 0, use});
   }
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const auto& x, const auto& y) { return x.first < y.first; });
@@ -72,27 +74,90 @@ std::vector<EdgeUse> around(std::span<const Vec3> points, const std::vector<Corn
   return result;
 }
 
+/// At an edge: those sets of triangles that run along it more often one way than the other, as they
+/// would be turned now, are to make up for one another. Pairs of triangles within a set that run
+/// opposite ways do not matter.
+void relate_sets(std::span<const Vec3> points, const std::vector<Corners>& triangles, uint32_t a,
+                 uint32_t b, std::span<const EdgeUse> uses, Turns& turns) {
+  struct Member {
+    uint32_t root;
+    bool forward;
+    size_t place;  ///< around the edge
+  };
+  const std::vector<EdgeUse> sorted = around(points, triangles, a, b, uses);
+  std::vector<Member> members;
+  for (size_t i = 0; i < sorted.size(); ++i) {
+    const Turns::Place place = turns.find(sorted[i].triangle);
+    members.push_back({place.root, sorted[i].forward != place.turned, i});
+  }
+  std::ranges::stable_sort(members, {}, &Member::root);
+  std::vector<size_t> left;
+  for (auto from = members.begin(); from != members.end();) {
+    std::vector<Member> waiting;
+    auto to = from;
+    for (; to != members.end() && to->root == from->root; ++to) {
+      if (!waiting.empty() && waiting.back().forward != to->forward)
+        waiting.pop_back();
+      else
+        waiting.push_back(*to);
+    }
+    for (const Member& member : waiting) left.push_back(member.place);
+    from = to;
+  }
+  std::ranges::sort(left);
+  const auto relate = [&](const EdgeUse& x, const EdgeUse& y) {
+    turns.relate(x.triangle, y.triangle, x.forward == y.forward);
+  };
+  const auto forward = std::ranges::count_if(left, [&](size_t i) { return sorted[i].forward; });
+  if (2 * size_t(forward) == left.size()) {
+    // As they were written they make up for one another.
+    std::vector<size_t> waiting;
+    for (const size_t i : left) {
+      if (!waiting.empty() && sorted[waiting.back()].forward != sorted[i].forward) {
+        relate(sorted[waiting.back()], sorted[i]);
+        waiting.pop_back();
+      } else {
+        waiting.push_back(i);
+      }
+    }
+  } else {
+    // Going around, one goes in and out of the solid in turn.
+    for (size_t k = 0; k + 1 < left.size(); ++k) relate(sorted[left[k]], sorted[left[k + 1]]);
+  }
+}
+
+/// Which parts run along an edge more often one way than the other.
+void find_unbalanced(std::span<const EdgeUse> uses, const std::vector<uint32_t>& part_of,
+                     std::vector<uint32_t>& unbalanced) {
+  std::vector<std::pair<uint32_t, int>> ways;
+  for (const EdgeUse& use : uses) ways.emplace_back(part_of[use.triangle], use.forward ? 1 : -1);
+  std::ranges::sort(ways);
+  unbalanced.clear();
+  for (size_t i = 0; i < ways.size();) {
+    int balance = 0;
+    const uint32_t part = ways[i].first;
+    for (; i < ways.size() && ways[i].first == part; ++i) balance += ways[i].second;
+    if (balance != 0) unbalanced.push_back(part);
+  }
+}
+
 }  // namespace
 
 MeshParts turn_faces(std::span<const Vec3> points, std::vector<Corners>& triangles) {
   const auto count = uint32_t(triangles.size());
   Turns turns(count);
-  const auto relate = [&](const EdgeUse& x, const EdgeUse& y) {
-    return turns.relate(x.triangle, y.triangle, x.forward == y.forward);
-  };
-  std::vector<uint32_t> contradicted;
-  for_each_edge(triangles, points.size(),
-                [&](uint32_t a, uint32_t b, std::span<const EdgeUse> uses) {
-                  const auto forward = std::ranges::count_if(uses, &EdgeUse::forward);
-                  if (uses.size() == 2) {
-                    if (!relate(uses[0], uses[1])) contradicted.push_back(uses[0].triangle);
-                  } else if (uses.size() % 2 == 0 && 2 * size_t(forward) != uses.size()) {
-                    const std::vector<EdgeUse> sorted = around(points, triangles, a, b, uses);
-                    for (size_t i = 0; i + 1 < sorted.size(); ++i)
-                      if (!relate(sorted[i], sorted[i + 1]))
-                        contradicted.push_back(sorted[i].triangle);
-                  }
-                });
+  bool is_manifold = true;
+  for_each_edge(triangles, points.size(), [&](uint32_t, uint32_t, std::span<const EdgeUse> uses) {
+    if (uses.size() == 2)
+      turns.relate(uses[0].triangle, uses[1].triangle, uses[0].forward == uses[1].forward);
+    is_manifold &= uses.size() == 2;
+  });
+  if (!is_manifold)
+    for_each_edge(triangles, points.size(),
+                  [&](uint32_t a, uint32_t b, std::span<const EdgeUse> uses) {
+                    if (uses.size() > 2 && uses.size() % 2 == 0)
+                      relate_sets(points, triangles, a, b, uses, turns);
+                  });
 
   // How much of each set's area is turned as its first triangle is, and how much the other way.
   std::vector<double> balance(count, 0);
@@ -105,26 +170,45 @@ MeshParts turn_faces(std::span<const Vec3> points, std::vector<Corners>& triangl
   MeshParts parts;
   parts.part_of.resize(count);
   std::vector<uint32_t> number(count, UINT32_MAX);
+  uint32_t part_count = 0;
   for (uint32_t t = 0; t < count; ++t) {
     const Turns::Place place = turns.find(t);
-    if (number[place.root] == UINT32_MAX) {
-      number[place.root] = uint32_t(parts.is_open.size());
-      parts.is_open.push_back(0);
-    }
+    if (number[place.root] == UINT32_MAX) number[place.root] = part_count++;
     parts.part_of[t] = number[place.root];
     if (place.turned != (balance[place.root] < 0)) {
       std::swap(triangles[t][1], triangles[t][2]);
       ++parts.turned;
     }
   }
-  for (const uint32_t t : contradicted) parts.is_open[parts.part_of[t]] = 1;
+
+  // Where parts make up for one another at an edge they are one, for better or worse.
+  Turns joined(part_count);
+  std::vector<uint8_t> is_open(part_count, 0);
+  std::vector<uint32_t> unbalanced;
   for_each_edge(triangles, points.size(),
                 [&](uint32_t a, uint32_t b, std::span<const EdgeUse> uses) {
+                  if (uses.size() == 2 && uses[0].forward != uses[1].forward) return;
+                  find_unbalanced(uses, parts.part_of, unbalanced);
                   const auto forward = std::ranges::count_if(uses, &EdgeUse::forward);
-                  if (2 * size_t(forward) == uses.size()) return;
-                  if (parts.open_edges++ == 0) parts.first_open = (points[a] + points[b]) * 0.5;
-                  for (const EdgeUse& use : uses) parts.is_open[parts.part_of[use.triangle]] = 1;
+                  const bool is_closed = 2 * size_t(forward) == uses.size();
+                  if (!is_closed && parts.open_edges++ == 0)
+                    parts.first_open = (points[a] + points[b]) * 0.5;
+                  for (const uint32_t part : unbalanced) {
+                    is_open[part] |= !is_closed;
+                    joined.relate(unbalanced[0], part, false);
+                  }
                 });
+  std::vector<uint32_t> joined_number(part_count, UINT32_MAX);
+  for (uint32_t i = 0; i < part_count; ++i) {
+    uint32_t& own = joined_number[joined.find(i).root];
+    if (own == UINT32_MAX) {
+      own = uint32_t(parts.is_open.size());
+      parts.is_open.push_back(0);
+    }
+    joined_number[i] = own;
+    parts.is_open[own] |= is_open[i];
+  }
+  for (uint32_t& part : parts.part_of) part = joined_number[part];
   return parts;
 }
 

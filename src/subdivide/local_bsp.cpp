@@ -1,17 +1,30 @@
 #include "subdivide/local_bsp.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 namespace whittle {
 namespace {
 
-/// Where in a cell it is asked which side of the boundary that is: places that no model favours, as
-/// shares of the cell's half size.
-constexpr Vec3 kProbes[] = {{0.137, -0.211, 0.173},  {-0.523, 0.317, -0.611},
-                            {0.709, 0.571, -0.367},  {-0.269, -0.743, 0.457},
-                            {0.419, -0.653, -0.787}, {-0.811, 0.149, 0.683}};
+/// Places in a cell, as shares of its half size, that no model favours: the first sixteen of the
+/// Halton sequence in bases 2, 3 and 5, moved a little.
+constexpr std::array<Vec3, 16> kProbes = [] {
+  std::array<Vec3, 16> all{};
+  const auto radical_inverse = [](int i, int base) {
+    double result = 0, digit = 1;
+    for (; i > 0; i /= base) result += (digit /= base) * (i % base);
+    return result;
+  };
+  for (int i = 0; i < 16; ++i) {
+    Vec3 p{radical_inverse(i + 1, 2) + 0.0137, radical_inverse(i + 1, 3) - 0.0211,
+           radical_inverse(i + 1, 5) + 0.0173};
+    for (int axis = 0; axis < 3; ++axis)
+      all[std::size_t(i)][axis] = 1.9 * (p[axis] - (p[axis] >= 1 ? 1 : 0)) - 0.95;
+  }
+  return all;
+}();
 
 /// Weights of a polygon's corners that give points inside of it.
 constexpr double kWeights[][3] = {
@@ -85,6 +98,19 @@ void LocalBsp::clip(uint32_t axis, int sign, double limit) {
       cut_.push_back(p + (q - p) * (at_p / (at_p - at_q)));
   }
   cut_.erase(cut_.begin(), cut_.begin() + std::ptrdiff_t(n));
+}
+
+/// How far the corners of the triangles in the cell are from their planes. Of the whole boundary
+/// that may be much more, and here it would hide what is small.
+void LocalBsp::measure_slack(const Boundary& boundary, const CellBox& cell) {
+  slack_ = boundary.rounding();
+  boundary.visit_in(cell.center, cell.half, [&](uint32_t i) {
+    const Boundary::Triangle& triangle = boundary.triangles()[i];
+    const HalfSpace& h = scene_.half_spaces[scene_.faces[triangle.face].literal >> 1];
+    for (const uint32_t corner : triangle.corners)
+      slack_ = std::max(slack_, std::fabs(2 * dot(h.f.b, boundary.point(corner) - h.center)));
+    return true;
+  });
 }
 
 /// The triangles of the boundary, as far as they are in the cell, and their planes.
@@ -202,6 +228,7 @@ void LocalBsp::divide(std::span<const uint32_t> polygons, uint32_t plane, Node& 
         const double worth = std::min(nearest, width);
         if (worth > best) {
           best = worth;
+          node.room = worth;
           node.sample = p;
           node.jump = polygon.outward;
         }
@@ -255,7 +282,7 @@ void LocalBsp::build() {
       self = uint32_t(nodes_.size());
       list_.assign(lists_.begin() + part.first, lists_.begin() + part.last);
       lists_.resize(part.first);
-      Node node{choose(list_), {0, 0}, {}, 0};
+      Node node{choose(list_), {0, 0}, {}, 0, 0};
       divide(list_, node.plane, node);
       nodes_.push_back(node);
       const auto from = uint32_t(lists_.size());
@@ -276,29 +303,29 @@ uint32_t LocalBsp::part_at(uint32_t node, Vec3 q) const {
   return node & ~kPart;
 }
 
-/// Every node tells by how much the winding numbers differ of two parts, one on either side of its
-/// sample: n parts are related by n - 1 nodes. One number is found by the whole boundary, and the
-/// rest follow.
+/// The parts that have a point well inside are looked up in the whole boundary there: points all
+/// over the cell, and points on both sides of every node's sample. The rest, which are thin, follow
+/// from their neighbours: every node tells by how much the winding numbers differ of two parts, one
+/// on either side of its sample, and so its n - 1 nodes relate n parts.
 void LocalBsp::label(const Boundary& boundary, const CellBox& cell) {
-  struct Relation {
-    uint32_t front, back;
-    int jump;
+  struct Probe {
+    Vec3 at;
+    double distance = -1;  ///< from the nearest plane
   };
-  std::vector<Relation> relations;
-  relations.reserve(nodes_.size());
-  for (const Node& node : nodes_)
-    relations.push_back(
-        {part_at(node.child[0], node.sample), part_at(node.child[1], node.sample), node.jump});
-
-  Vec3 probe;
-  double best = -1;
+  std::vector<Probe> probes(windings_.size());
   for (const Vec3& share : kProbes) {
     const Vec3 q = times(share, cell.half);
     double nearest = kInfinity;
     for (const CellPlane& plane : planes_) nearest = std::min(nearest, std::fabs(plane.at(q)));
-    if (nearest > best) best = nearest, probe = q;
+    Probe& probe = probes[part_at(0, q)];
+    if (nearest > probe.distance) probe = {q, nearest};
   }
-  const uint32_t known = part_at(0, probe);
+  for (const Node& node : nodes_)
+    for (const double side : {0.5, -0.5}) {
+      const Vec3 q = node.sample + planes_[node.plane].n * (side * node.room);
+      Probe& probe = probes[part_at(0, q)];
+      if (node.room / 2 > probe.distance) probe = {q, node.room / 2};
+    }
 
   // Sets of parts whose differences are known: each part's to its set's first (union-find).
   std::vector<uint32_t> set(windings_.size());
@@ -317,21 +344,36 @@ void LocalBsp::label(const Boundary& boundary, const CellBox& cell) {
     }
     return root;
   };
-  for (const Relation& relation : relations) {
-    const uint32_t front = find(relation.front), back = find(relation.back);
-    if (front == back) continue;
-    const int of_front = relation.front == front ? 0 : windings_[relation.front];
-    const int of_back = relation.back == back ? 0 : windings_[relation.back];
-    // w(back part) = w(front part) + jump.
-    set[back] = front;
-    windings_[back] = of_front + relation.jump - of_back;
+  const auto difference = [&](uint32_t part, uint32_t root) {
+    return part == root ? 0 : windings_[part];
+  };
+  for (const Node& node : nodes_) {
+    const uint32_t front = part_at(node.child[0], node.sample),
+                   back = part_at(node.child[1], node.sample);
+    const uint32_t front_root = find(front), back_root = find(back);
+    if (front_root == back_root) continue;
+    // w(back) = w(front) + jump.
+    const int sum = difference(front, front_root) + node.jump - difference(back, back_root);
+    set[back_root] = front_root;
+    windings_[back_root] = sum;
   }
-  const uint32_t root = find(known);
-  const int there = boundary.winding(cell.center + probe) - (known == root ? 0 : windings_[known]);
+
+  uint32_t best = 0;
+  for (uint32_t i = 1; i < probes.size(); ++i)
+    if (probes[i].distance > probes[best].distance) best = i;
   std::vector<int> result(windings_.size());
+  const auto look_up = [&](uint32_t part) {
+    return boundary.winding(cell.center + probes[part].at);
+  };
+  const uint32_t root = find(best);
+  const int of_root = look_up(best) - difference(best, root);
   for (uint32_t i = 0; i < set.size(); ++i) {
-    const uint32_t its = find(i);
-    result[i] = there + (its == i ? 0 : windings_[i]);
+    if (probes[i].distance > 4 * slack_) {
+      result[i] = look_up(i);
+    } else {
+      const uint32_t its = find(i);
+      result[i] = of_root + difference(i, its);
+    }
   }
   windings_ = std::move(result);
 }
@@ -453,7 +495,7 @@ void LocalBsp::write(bool negated) {
 
 std::span<const Token> LocalBsp::formula(const Unit& unit, const CellBox& cell, bool negated) {
   const Boundary& boundary = scene_.boundaries[unit.boundary];
-  slack_ = boundary.slack();
+  measure_slack(boundary, cell);
   collect(boundary, cell, cell.half);
   if (polygons_.empty()) {
     const bool value = is_inside(unit, cell) != negated;

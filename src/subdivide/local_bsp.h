@@ -57,7 +57,8 @@ class LocalBsp {
   struct Node {
     uint32_t plane;
     uint32_t child[2];
-    Vec3 sample;  ///< a point of one of its polygons
+    Vec3 sample;  ///< a point of one of its polygons,
+    double room;  ///< and how far that is from the polygon's edges and from all other planes
     int jump;     ///< by how much the winding number grows through it, from front to back
   };
   static constexpr uint32_t kPart = 1u << 31;
@@ -66,6 +67,7 @@ class LocalBsp {
 
   uint32_t plane_of(uint32_t face, std::span<const Vec3> polygon, const CellBox& cell);
   double width_of(std::span<const Vec3> polygon) const;
+  void measure_slack(const Boundary& boundary, const CellBox& cell);
   void collect(const Boundary& boundary, const CellBox& cell, Vec3 reach);
   void clip(uint32_t axis, int sign, double limit);
   void build();

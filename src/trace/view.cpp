@@ -1,5 +1,7 @@
 #include "trace/view.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -50,13 +52,58 @@ Error camera_error(std::string message) {
   return {ErrorKind::kUsage, std::move(message)};
 }
 
-bool gives_camera(const ViewOptions& options) {
-  return options.eye || options.center || options.target || options.rotation_degrees ||
-         options.distance;
-}
-
 bool gives_view(const FileView& file) {
   return file.target || file.rotation_degrees || file.distance || file.fov_degrees;
+}
+
+/// The vector form's angles, as OpenSCAD has them.
+Vec3 gimbal_rotation(Vec3 forward) {
+  const double degrees = 180 / std::acos(-1.0);
+  const double horizontal = std::hypot(forward.x, forward.y);
+  if (!(horizontal > 0)) return forward.z < 0 ? Vec3{0, 0, 0} : Vec3{180, 0, 180};
+  return {std::atan2(horizontal, -forward.z) * degrees, 0,
+          std::atan2(-forward.x, forward.y) * degrees};
+}
+
+struct Framed {
+  Pose pose;
+  Vec3 rotation_degrees;
+  double fov_degrees = 0;
+};
+
+Framed frame(const ViewOptions& options, const FileView& file, const Box& framed_box) {
+  const bool vector_given = options.eye || options.center;
+  const bool camera_given = gives_camera(options);
+  const bool file_given = !camera_given && gives_view(file);
+  const bool view_all = frames_the_solid(options, file);
+  const bool auto_center = camera_given ? options.auto_center : !file_given;
+  const FileView said = file_given ? file
+                                   : FileView{.target = options.target,
+                                              .rotation_degrees = options.rotation_degrees,
+                                              .distance = options.distance,
+                                              .fov_degrees = {}};
+
+  Pose pose;
+  if (vector_given) {
+    const Vec3 center = options.center.value_or(Vec3{});
+    pose = vector_pose(options.eye.value_or(center + Vec3{0, 0, kDefaultDistance}), center);
+  } else {
+    const double distance = said.distance.value_or(kDefaultDistance);
+    pose = gimbal_pose(said.rotation_degrees.value_or(kDefaultRotationDegrees),
+                       said.target.value_or(Vec3{}),
+                       camera_given && distance < 0 ? kDefaultDistance : distance);
+  }
+
+  double fov = options.fov_degrees.value_or(said.fov_degrees.value_or(kDefaultFovDegrees));
+  if (!(fov > 0 && fov < 180)) fov = kDefaultFovDegrees;
+  if (view_all && !framed_box.is_empty() && framed_box.is_finite()) {
+    if (auto_center) pose.target = framed_box.center();
+    const double radius = length(framed_box.center() - pose.target) + framed_box.diagonal() / 2;
+    if (radius > 0) pose.distance = radius / sin_degrees(fov / 2);
+  }
+  const Vec3 rotation = vector_given ? gimbal_rotation(pose.forward)
+                                     : said.rotation_degrees.value_or(kDefaultRotationDegrees);
+  return {pose, rotation, fov};
 }
 
 }  // namespace
@@ -82,7 +129,6 @@ Result<ViewOptions> parse_camera(std::string_view text, ViewOptions base) {
   }
   ++count;
   if (count == 7) {
-    if (v[6] < 0) return camera_error("Camera distance must not be negative" + quoted);
     base.target = Vec3{v[0], v[1], v[2]};
     base.rotation_degrees = Vec3{v[3], v[4], v[5]};
     base.distance = v[6];
@@ -105,36 +151,37 @@ bool frames_the_solid(const ViewOptions& options, const FileView& file) {
   return gives_camera(options) ? options.view_all : !gives_view(file);
 }
 
+bool gives_camera(const ViewOptions& options) {
+  return options.eye || options.center || options.target || options.rotation_degrees ||
+         options.distance;
+}
+
+std::string camera_text(const ViewOptions& options) {
+  const auto list = [](Vec3 v) { return fmt::format("{},{},{}", v.x, v.y, v.z); };
+  if (options.eye || options.center) {
+    const Vec3 center = options.center.value_or(Vec3{});
+    return list(options.eye.value_or(center + Vec3{0, 0, kDefaultDistance})) + ',' + list(center);
+  }
+  return list(options.target.value_or(Vec3{})) + ',' +
+         list(options.rotation_degrees.value_or(kDefaultRotationDegrees)) +
+         fmt::format(",{}", options.distance.value_or(kDefaultDistance));
+}
+
+Status check_view(const ViewOptions& options) {
+  if (options.distance.value_or(0) >= 0 || options.view_all) return Done{};
+  return camera_error("Camera distance must not be negative, unless --viewall replaces it");
+}
+
+GimbalView gimbal_view(const ViewOptions& options, const FileView& file, const Box& framed_box) {
+  const Framed framed = frame(options, file, framed_box);
+  return {framed.pose.target, framed.rotation_degrees, framed.pose.distance, framed.fov_degrees};
+}
+
 Camera make_camera(const ViewOptions& options, const FileView& file, const Box& framed_box) {
   WHITTLE_CHECK(options.width > 0 && options.height > 0);
-  const bool vector_given = options.eye || options.center;
-  const bool camera_given = gives_camera(options);
-  const bool file_given = !camera_given && gives_view(file);
-  const bool view_all = frames_the_solid(options, file);
-  const bool auto_center = camera_given ? options.auto_center : !file_given;
-  const FileView said = file_given ? file
-                                   : FileView{.target = options.target,
-                                              .rotation_degrees = options.rotation_degrees,
-                                              .distance = options.distance,
-                                              .fov_degrees = {}};
-
-  Pose pose;
-  if (vector_given) {
-    const Vec3 center = options.center.value_or(Vec3{});
-    pose = vector_pose(options.eye.value_or(center + Vec3{0, 0, kDefaultDistance}), center);
-  } else {
-    pose = gimbal_pose(said.rotation_degrees.value_or(kDefaultRotationDegrees),
-                       said.target.value_or(Vec3{}), said.distance.value_or(kDefaultDistance));
-  }
-
-  double fov = options.fov_degrees.value_or(said.fov_degrees.value_or(kDefaultFovDegrees));
-  if (!(fov > 0 && fov < 180)) fov = kDefaultFovDegrees;
-  if (view_all && !framed_box.is_empty() && framed_box.is_finite()) {
-    if (auto_center) pose.target = framed_box.center();
-    const double radius = length(framed_box.center() - pose.target) + framed_box.diagonal() / 2;
-    if (radius > 0) pose.distance = radius / sin_degrees(fov / 2);
-  }
-
+  const Framed framed = frame(options, file, framed_box);
+  const Pose& pose = framed.pose;
+  const double fov = framed.fov_degrees;
   const double tangent = std::tan(fov / 2 * (std::acos(-1.0) / 180));
   Camera camera;
   camera.right = pose.right;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "base/box.h"
@@ -41,9 +42,27 @@ struct ViewOptions {
 /// distance) or six `ex,ey,ez,cx,cy,cz` (eye and centre). Anything else is a kUsage error.
 Result<ViewOptions> parse_camera(std::string_view text, ViewOptions base = {});
 
+/// Whether a camera is given: any of target, rotation_degrees, distance, eye and center.
+bool gives_camera(const ViewOptions& options);
+
+/// A given camera as --camera has it.
+std::string camera_text(const ViewOptions& options);
+
+/// A kUsage error for a negative distance, unless view-all replaces it.
+Status check_view(const ViewOptions& options);
+
 /// Whether make_camera would look at `framed_box`: view-all is asked for, or nothing is said about
 /// the view.
 bool frames_the_solid(const ViewOptions& options, const FileView& file);
+
+/// A view in OpenSCAD's words: what $vpt, $vpr, $vpd and $vpf would be.
+struct GimbalView {
+  Vec3 target, rotation_degrees;
+  double distance = 0, fov_degrees = 0;
+};
+
+/// The view of make_camera's camera.
+GimbalView gimbal_view(const ViewOptions& options, const FileView& file, const Box& framed_box);
 
 /// The camera that OpenSCAD would use. `framed_box` is what view-all fits. Without a camera and
 /// without $vp* in the file, view-all and auto-centre are both on; $vp* without a camera turn both

@@ -174,13 +174,48 @@ TEST(View, OrthographicRaysStartFarBehindTheEye) {
 
 TEST(View, CameraTextMustBeSixOrSevenNumbers) {
   for (const char* text : {"", "1", "1,2,3", "1,2,3,4,5,6,7,8", "1,2,3,4,5,x", "1,2,3,4,5,",
-                           "1,2,3,4,5,6,inf", "1,2,3,4,5,nan", "0,0,0,0,0,0,-1", "1 2 3 4 5 6"}) {
+                           "1,2,3,4,5,6,inf", "1,2,3,4,5,nan", "1 2 3 4 5 6"}) {
     const Result<ViewOptions> parsed = parse_camera(text);
     ASSERT_FALSE(parsed) << text;
     EXPECT_EQ(parsed.error().kind, ErrorKind::kUsage);
     EXPECT_NE(parsed.error().message.find("Camera"), std::string::npos);
   }
   EXPECT_TRUE(parse_camera(" 1, +2 ,3e0,-4,5,.6,7"));
+}
+
+TEST(View, ANegativeDistanceIsOnlyForViewAllToReplace) {
+  ViewOptions options = *parse_camera("-1,-1,-1,90,0,0,-1", sized(64, 64));
+  ASSERT_FALSE(check_view(options));
+  EXPECT_EQ(check_view(options).error().kind, ErrorKind::kUsage);
+  options.view_all = true;
+  EXPECT_TRUE(check_view(options));
+  ViewOptions positive = options;
+  positive.distance = 1;
+  expect_near(make_camera(options, {}, kBrick).eye, make_camera(positive, {}, kBrick).eye);
+  // Of nothing there is no distance.
+  EXPECT_LT(make_camera(options, {}, {}).eye.y, -1);
+}
+
+TEST(View, IsToldInOpenscadsWords) {
+  const ViewOptions given = *parse_camera("1,2,3,40,0,60,70", sized(8, 8));
+  const GimbalView same = gimbal_view(given, {}, {});
+  expect_near(same.target, {1, 2, 3});
+  expect_near(same.rotation_degrees, {40, 0, 60});
+  EXPECT_EQ(same.distance, 70);
+  EXPECT_EQ(same.fov_degrees, kDefaultFovDegrees);
+  // A camera in the vector form, and the one that looks by its angles.
+  for (const char* text : {"1,-2,3,4,5,6", "0,0,9,0,0,-9", "-5,-6,-7,1,1,1"}) {
+    const ViewOptions vector = *parse_camera(text, sized(8, 8));
+    const GimbalView view = gimbal_view(vector, {}, {});
+    ViewOptions angles = sized(8, 8);
+    angles.target = view.target;
+    angles.rotation_degrees = view.rotation_degrees;
+    angles.distance = view.distance;
+    const Camera a = make_camera(vector, {}, {}), b = make_camera(angles, {}, {});
+    EXPECT_LT(length(a.eye - b.eye), 1e-12) << text;
+    EXPECT_LT(length(a.right - b.right), 1e-12) << text;
+    EXPECT_LT(length(a.up - b.up), 1e-12) << text;
+  }
 }
 
 TEST(View, TheLaterCameraTextReplacesTheEarlier) {

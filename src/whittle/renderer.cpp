@@ -128,7 +128,7 @@ Result<Renderer> Renderer::make(const Model& model, const RendererSettings& sett
   return Renderer(std::move(state));
 }
 
-Camera Renderer::camera(const ViewOptions& options) {
+Camera Renderer::camera(const ViewOptions& options, GimbalView* view) {
   State& s = *state_;
   const FileView& file = s.model.view;
   const Stopwatch watch;
@@ -138,6 +138,7 @@ Camera Renderer::camera(const ViewOptions& options) {
     framed = solid.bounded ? solid.box : bounds(s.model).box;
   }
   s.times.frame = watch.milliseconds();
+  if (view) *view = gimbal_view(options, file, framed);
   return make_camera(options, file, framed);
 }
 

@@ -79,8 +79,9 @@ class Renderer {
   ~Renderer();
 
   /// OpenSCAD's camera for these options and the model's $vp*, framing the solid (solid_bounds)
-  /// where view-all is on. Of a solid that has no end, what bounds() says is framed.
-  Camera camera(const ViewOptions& options);
+  /// where view-all is on. Of a solid that has no end, what bounds() says is framed. `view` is told
+  /// the same in OpenSCAD's words.
+  Camera camera(const ViewOptions& options, GimbalView* view = nullptr);
 
   /// Makes the cells, as far as they are not left to the rays, and the tracer. The camera says how
   /// many rays there will be, and with a pixel threshold which cells are small. The oracle has no

@@ -115,6 +115,19 @@ TriangleMesh bumpy_mesh(double r, double bump, int n, uint32_t seed) {
   return with_facets(std::move(ball.points), std::move(triangles));
 }
 
+TriangleMesh changed(const TriangleMesh& mesh, double (*coordinate)(double)) {
+  std::vector<Vec3> points = mesh.points;
+  for (Vec3& p : points)
+    for (int axis = 0; axis < 3; ++axis) p[axis] = coordinate(p[axis]);
+  std::vector<std::array<uint32_t, 3>> triangles;
+  for (const TriangleMesh::Triangle& t : mesh.triangles) {
+    const Vec3 a = points[t.corners[0]];
+    if (cross(points[t.corners[1]] - a, points[t.corners[2]] - a) == Vec3{}) continue;
+    triangles.push_back(t.corners);
+  }
+  return with_facets(std::move(points), std::move(triangles));
+}
+
 TriangleMesh together(const std::vector<TriangleMesh>& meshes) {
   TriangleMesh all;
   for (const TriangleMesh& mesh : meshes) {

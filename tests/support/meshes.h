@@ -21,6 +21,9 @@ TriangleMesh torus_mesh(double major, double minor, int n, int m);
 /// A ball whose points stray by up to `bump` of the radius, the same for the same seed.
 TriangleMesh bumpy_mesh(double r, double bump, int n, uint32_t seed);
 
+/// Every coordinate replaced, and the facets found anew.
+TriangleMesh changed(const TriangleMesh& mesh, double (*coordinate)(double));
+
 /// All of them, without cutting one by another.
 TriangleMesh together(const std::vector<TriangleMesh>& meshes);
 

@@ -1,0 +1,39 @@
+#include "frame_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "base/result.h"
+
+namespace whittle {
+
+FrameReader::FrameReader(std::string file, ReadOptions options, std::vector<double> times)
+    : file_(std::move(file)),
+      options_(std::move(options)),
+      times_(std::move(times)),
+      at_a_time_(std::clamp<size_t>(std::thread::hardware_concurrency(), 1, kMostAtATime)) {
+  read_ahead();
+}
+
+void FrameReader::read_ahead() {
+  for (; started_ < times_.size() && running_.size() < at_a_time_; ++started_) {
+    ReadOptions options = options_;
+    options.flatten.definitions.push_back(fmt::format("$t={}", times_[started_]));
+    running_.push_back(std::async(std::launch::async, [file = file_, options = std::move(options)] {
+      return read_file(file, options);
+    }));
+  }
+}
+
+Result<Read> FrameReader::next() {
+  WHITTLE_CHECK(!running_.empty());
+  Result<Read> read = running_.front().get();
+  running_.pop_front();
+  read_ahead();
+  return read;
+}
+
+}  // namespace whittle

@@ -1,0 +1,120 @@
+#include "summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+namespace whittle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Openscad's words; of a cache and of areas whittle has nothing to say.
+constexpr std::array<std::string_view, 7> kParts = {"all",      "cache",        "time", "camera",
+                                                    "geometry", "bounding-box", "area"};
+
+bool has(const SummaryArguments& summary, std::string_view part) {
+  const auto among = [&](std::string_view name) {
+    return std::ranges::find(summary.parts, name) != summary.parts.end();
+  };
+  return summary.parts.empty() || among("all") || among(part);
+}
+
+bool is_told(const Box& box) {
+  return !box.is_empty() && box.is_finite();
+}
+
+Json to_json(Vec3 v) {
+  return {v.x, v.y, v.z};
+}
+
+struct Clock {
+  int64_t total, milliseconds, seconds, minutes, hours;
+  explicit Clock(double time)
+      : total(std::llround(time)),
+        milliseconds(total % 1000),
+        seconds(total / 1000 % 60),
+        minutes(total / 60'000 % 60),
+        hours(total / 3'600'000) {}
+  std::string text() const {
+    return fmt::format("{}:{:02}:{:02}.{:03}", hours, minutes, seconds, milliseconds);
+  }
+};
+
+}  // namespace
+
+void add_summary_options(CLI::App& app, SummaryArguments& summary) {
+  OptionGroup group(app, "Output");
+  group.add_each("--summary", "PART", "says all, time, camera, geometry or bounding-box",
+                 [&](const std::string& part) {
+                   if (std::ranges::find(kParts, part) == kParts.end()) {
+                     refuse("--summary", fmt::format("unknown part '{}'; there are: {}", part,
+                                                     fmt::join(kParts, ", ")));
+                   }
+                   summary.parts.push_back(part);
+                 });
+  group.add_text("--summary-file", "FILE", "the same as JSON; '-': standard output",
+                 [&](const std::string& path) { summary.file = path; });
+}
+
+std::string summary_json(const SummaryFacts& facts, const SummaryArguments& summary) {
+  Json json = Json::object();
+  if (has(summary, "time")) {
+    const Clock clock(facts.milliseconds);
+    json["time"] = {{"time", clock.text()},
+                    {"total", clock.total},
+                    {"milliseconds", clock.milliseconds},
+                    {"seconds", clock.seconds},
+                    {"minutes", clock.minutes},
+                    {"hours", clock.hours}};
+  }
+  const bool tells_geometry = has(summary, "geometry"), tells_box = has(summary, "bounding-box");
+  if (is_told(facts.box) && (tells_geometry || tells_box)) {
+    json["geometry"]["dimensions"] = 3;
+    if (tells_box) {
+      json["geometry"]["bounding_box"] = {{"min", to_json(facts.box.lo)},
+                                          {"max", to_json(facts.box.hi)},
+                                          {"size", to_json(facts.box.hi - facts.box.lo)}};
+    }
+  }
+  if (has(summary, "camera")) {
+    json["camera"] = {{"translation", to_json(facts.view.target)},
+                      {"rotation", to_json(facts.view.rotation_degrees)},
+                      {"distance", facts.view.distance},
+                      {"fov", facts.view.fov_degrees}};
+  }
+  return json.dump() + "\n";
+}
+
+std::string summary_lines(const SummaryFacts& facts, const SummaryArguments& summary) {
+  std::vector<std::string> lines;
+  const auto vector = [&](std::string_view name, Vec3 v) {
+    lines.push_back(fmt::format("   {:<13}{:.2f}, {:.2f}, {:.2f}", name, v.x, v.y, v.z));
+  };
+  const auto number = [&](std::string_view name, double value) {
+    lines.push_back(fmt::format("   {:<13}{:.2f}", name, value));
+  };
+  if (has(summary, "time")) {
+    lines.push_back("Total rendering time: " + Clock(facts.milliseconds).text());
+  }
+  if (has(summary, "bounding-box") && is_told(facts.box)) {
+    lines.emplace_back("Bounding box:");
+    vector("Min:", facts.box.lo);
+    vector("Max:", facts.box.hi);
+    vector("Size:", facts.box.hi - facts.box.lo);
+  }
+  if (has(summary, "camera")) {
+    lines.emplace_back("Camera:");
+    vector("Translation:", facts.view.target);
+    vector("Rotation:", facts.view.rotation_degrees);
+    number("Distance:", facts.view.distance);
+    number("FOV:", facts.view.fov_degrees);
+  }
+  return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
+}  // namespace whittle

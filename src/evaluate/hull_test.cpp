@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "evaluate/convex_hull.h"
+#include "evaluate/evaluate_test_support.h"
+
+namespace whittle {
+namespace {
+
+TEST(SolidHull, KeepsTheCornersAndTheirPlanes) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 8; ++i) points.push_back(Box{{0, 0, 0}, {3, 4, 5}}.corner(i));
+  points.push_back({1, 1, 1});
+  points.push_back({3, 2, 2});
+  points.push_back(points[0]);
+  const std::optional<Polyhedron> hull = solid_hull(points);
+  ASSERT_TRUE(hull);
+  EXPECT_EQ(hull->planes.size(), 6u);
+  for (const Plane& plane : hull->planes) {
+    EXPECT_EQ(length(plane.n), 1);
+    EXPECT_EQ(std::fabs(plane.n.x) + std::fabs(plane.n.y) + std::fabs(plane.n.z), 1) << "exact";
+  }
+}
+
+TEST(SolidHull, OfWhatIsFlatIsNone) {
+  EXPECT_FALSE(solid_hull({}));
+  EXPECT_FALSE(solid_hull(std::vector<Vec3>(9, {1, 2, 3})));
+  EXPECT_FALSE(solid_hull(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}));
+  EXPECT_FALSE(solid_hull(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}));
+  EXPECT_FALSE(solid_hull(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1e-9}}));
+  EXPECT_FALSE(solid_hull(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, kInfinity}}));
+  EXPECT_FALSE(
+      solid_hull(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, std::nan("")}}));
+}
+
+RC_GTEST_PROP(SolidHull, HoldsAllPointsAndNothingBeyondTheirMixtures, ()) {
+  const int n = *rc::gen::inRange(4, 60);
+  const double size = *rc::gen::element(1.0, 1e-4, 1e6);
+  const Vec3 offset = Vec3{1, 2, 3} * *rc::gen::element(0.0, 1000.0);
+  std::vector<Vec3> points;
+  for (int i = 0; i < n; ++i) {
+    const auto x = [] { return *rc::gen::inRange(-5, 6); };
+    points.push_back((Vec3{double(x()), double(x()), double(x())} + offset) * size);
+  }
+  const std::optional<Polyhedron> hull = solid_hull(points);
+  RC_PRE(hull.has_value());
+  for (const Plane& plane : hull->planes) {
+    double most = -kInfinity;
+    for (const Vec3 p : points) most = std::fmax(most, dot(plane.n, p) - plane.d);
+    RC_ASSERT(most <= 1e-9 * size * length(offset + Vec3{9, 9, 9}));
+    RC_ASSERT(most >= -1e-9 * size * length(offset + Vec3{9, 9, 9}));
+  }
+}
+
+TEST(Hull, OfCubes) {
+  expect_same("hull() { cube(1); translate([4, 0, 0]) cube(1); }", "cube([5, 1, 1]);");
+  expect_same(
+      "hull() { cube(1); translate([0, 0, 4]) hull() { cube(1); translate([2, 0, 0]) cube(1);"
+      "} }",
+      "polyhedron([[0,0,0],[1,0,0],[1,1,0],[0,1,0],[0,0,5],[3,0,5],[3,1,5],[0,1,5],[3,0,4],"
+      "[3,1,4]], [[0,1,2,3],[4,5,8,1,0],[7,6,5,4],[5,6,9,8],[8,9,2,1],[6,7,3,2,9],[7,4,0,"
+      "3]]);");
+  const Model model = evaluated("cube(); hull() { cube(1); translate([4, 0, 0]) cube(1); }").model;
+  ASSERT_EQ(model.primitives.size(), 2u);
+  EXPECT_EQ(model.primitives[1].id, 2u);
+  EXPECT_EQ(model.statement_count, 4u);
+}
+
+TEST(Hull, OfEverythingWhoseCornersAreKnown) {
+  for (const char* part :
+       {"cylinder(h = 3, r = 2, $fn = 7);", "cylinder(h = 3, r1 = 2, r2 = 0, $fn = 8);",
+        "sphere(2, $fn = 9);", "sphere(2);", "linear_extrude(3) polygon([[0,0],[4,0],[1,3]]);",
+        "scale([1, 2, 3]) rotate([10, 20, 30]) cube(2);",
+        "polyhedron([[0,0,0],[3,0,0],[0,3,0],[0,0,3]], [[0,1,2],[0,3,1],[1,3,2],[2,3,0]]);",
+        "minkowski() { cube(2); cylinder(h = 1, r = 1, $fn = 5); }",
+        "resize([3, 0, 5]) sphere(1, $fn = 6);", "rotate_extrude($fn = 6) square([2, 3]);"}) {
+    const std::string text = part;
+    ReadOptions facets;
+    facets.curves = Curves::kFacets;
+    expect_same("hull() " + text, text, facets);
+    const Read read = evaluated("hull() { color(\"red\") { " + text + "} group(); %cube(99); }");
+    EXPECT_TRUE(read.warnings.empty()) << read.warnings[0];
+    EXPECT_EQ(read.model.primitives.size(), 1u);
+  }
+}
+
+TEST(Hull, ThatIsFlatIsEmptyAndAnOperand) {
+  for (const char* text :
+       {"hull();", "hull() group();", "hull() cube([1, 1, 0]);",
+        "difference() { hull() { cube(0); } cube(1); }", "hull() { scale([1, 1, 0]) cube(1); }"}) {
+    expect_empty(text);
+  }
+}
+
+TEST(Hull, OfWhatIsCutTakesTheFirstOperand) {
+  const Read read = evaluated(
+      "hull() { cube(1); difference() { translate([4, 0, 0]) cube(1); cube(9); "
+      "} }");
+  EXPECT_EQ(bounds(read.model).box, (Box{{0, 0, 0}, {5, 1, 1}}));
+  ASSERT_EQ(read.warnings.size(), 1u);
+  ASSERT_TRUE(read.unsupported);
+  EXPECT_EQ(read.unsupported->where, (SourceLocation{1, 19}));
+  // Alone it is no difference.
+  EXPECT_TRUE(evaluated("hull() difference() cube(1);").warnings.empty());
+}
+
+TEST(Minkowski, OfConvexSolidsIsTheirSum) {
+  expect_same("minkowski() { cube(3); translate([1, 0, 0]) cube([1, 2, 3]); }",
+              "translate([1, 0, 0]) cube([4, 5, 6]);");
+  expect_same("minkowski() { cube(3); cube(1); cube(2); }", "cube(6);");
+  expect_same("minkowski() cube(3);", "cube(3);");
+  expect_same("minkowski() { cube(3); group(); cube(0); }", "cube(3);");
+  expect_empty("minkowski();");
+  EXPECT_EQ(evaluated("cube(); minkowski() { cube(3); cube(1); }").model.primitives[1].id, 2u);
+}
+
+TEST(Minkowski, OfUnionsIsTheUnionOfSums) {
+  const std::string l = "{ cube([6, 1, 1]); cube([1, 6, 1]); }";
+  expect_same("minkowski() { union() " + l + " cube(1); }", "cube([7, 2, 2]); cube([2, 7, 2]);");
+  expect_same(
+      "minkowski() { linear_extrude(1) polygon([[0,0],[6,0],[6,1],[1,1],[1,6],[0,6]]); "
+      "cube(1); }",
+      "cube([7, 2, 2]); cube([2, 7, 2]);");
+  const Model model = evaluated("cube(); minkowski() { union() " + l + " cube(1); }").model;
+  EXPECT_EQ(lone_primitive(evaluated("minkowski() { union() " + l + " cube(1); }").model), 1u);
+  for (size_t i = 1; i < model.primitives.size(); ++i) EXPECT_EQ(model.primitives[i].id, 2u);
+}
+
+TEST(Minkowski, OfOthersShowsTheFirstOperandAlone) {
+  const Read read = evaluated(
+      "minkowski() { difference() { cube(9); translate([1, 1, 1]) cube(9); } translate([50, 0, 0]) "
+      "cube(1); }");
+  const Box box = bounds(read.model).box;
+  EXPECT_EQ(box, (Box{{0, 0, 0}, {9, 9, 9}}));
+  EXPECT_FALSE(Inside(read.model)({5, 5, 5}));
+  ASSERT_TRUE(read.unsupported);
+  EXPECT_LE(read.warnings.size(), 2u);
+}
+
+TEST(Resize, IsByTheBoxAndAboutTheOrigin) {
+  expect_same("resize([10, 0, 0]) translate([1, 1, 1]) cube(2);",
+              "translate([5, 1, 1]) cube([10, 2, 2]);");
+  expect_same("resize([10, 20, 0], auto = [0, 0, 1]) translate([1, 1, 1]) cube(2);",
+              "translate([5, 10, 10]) cube([10, 20, 20]);");
+  expect_same("resize([-4, 0, 5], auto = true) cube(2);", "cube(5);");
+  expect_same("resize([0, 0, 0], auto = true) cube(2);", "cube(2);");
+  expect_same("resize([10, 5]) cube(2);", "cube([10, 5, 2]);");
+  expect_same(
+      "resize([4, 0, 0], auto = true) resize([9, 9, 9]) { cube(1); translate([1, 1, 1]) "
+      "cube(2); }",
+      "resize([4, 4, 4]) { cube(1); translate([1, 1, 1]) cube(2); }");
+  const Model model = evaluated(
+                          "color(\"red\") cube(); resize([3, 3, 3]) { color(\"blue\") sphere(); "
+                          "translate([1, 0, 0]) cube(); } translate([1, 2, 3]) cube();")
+                          .model;
+  EXPECT_EQ(appearances(model)[3].color, (Rgba{0, 0, 1, 1})) << "it is no body";
+  EXPECT_TRUE(bounds(evaluated("resize([3, 3, 3]);").model).box.is_empty());
+}
+
+TEST(Resize, AsksForTheExactBox) {
+  ReadOptions options;
+  size_t asked = 0;
+  options.solid_box = [&](const Model& model) {
+    EXPECT_EQ(model.primitives.size(), 2u);
+    ++asked;
+    return Box{{0, 0, 0}, {1, 2, 4}};
+  };
+  const Model model =
+      evaluated("cube(5); resize([8, 0, 0]) difference() { cube(2); cube(1); }", options).model;
+  EXPECT_EQ(asked, 1u);
+  EXPECT_EQ(bounds(model).box, (Box{{0, 0, 0}, {16, 5, 5}}));
+}
+
+}  // namespace
+}  // namespace whittle

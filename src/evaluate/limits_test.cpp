@@ -1,0 +1,149 @@
+// What evaluating may cost: files, facets, depth.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/folder_for_test.h"
+#include "evaluate/evaluate_test_support.h"
+
+namespace whittle {
+namespace {
+
+namespace fs = std::filesystem;
+
+class NamedFileTest : public testing::Test {
+ protected:
+  void write(const std::string& name, const std::string& content) {
+    fs::create_directories((folder_.path() / name).parent_path());
+    std::ofstream(folder_.path() / name, std::ios::binary) << content;
+  }
+  ReadOptions options(const std::string& inside = "") {
+    ReadOptions options;
+    options.folder = (folder_.path() / inside).string();
+    return options;
+  }
+
+  const TestFolder folder_;
+  const std::string tetrahedron_ =
+      "OFF\n4 4 0\n0 0 0\n3 0 0\n0 3 0\n0 0 3\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+};
+
+TEST_F(NamedFileTest, AreRelativeToTheFolder) {
+  write("sub/part.off", tetrahedron_);
+  const std::string solid =
+      "polyhedron([[0,0,0],[3,0,0],[0,3,0],[0,0,3]], [[0,1,2],[0,3,1],[1,3,2],[2,3,0]]);";
+  const Model known = evaluated(solid).model;
+  const Read read = evaluated("import(file = \"sub/part.off\");", options());
+  EXPECT_TRUE(read.warnings.empty());
+  EXPECT_EQ(differing_points(read.model, known, {{0, 0, 0}, {3, 3, 3}}), 0);
+  EXPECT_FALSE(bounds(evaluated("import(\"part.off\");", options("sub")).model).box.is_empty());
+  EXPECT_TRUE(evaluated("hull() import(\"part.off\");", options("sub")).warnings.empty());
+}
+
+TEST_F(NamedFileTest, AMissingFileIsAWarningAndAnOperand) {
+  const Read read = evaluated("difference() { import(\"none.stl\"); cube(); }", options());
+  EXPECT_TRUE(bounds(read.model).box.is_empty());
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_EQ(read.warnings[0],
+            "t.csg:1:16: warning: there is no file none.stl; nothing is shown for it");
+  EXPECT_FALSE(read.unsupported);
+}
+
+TEST_F(NamedFileTest, WhatCannotBeReadIsSaid) {
+  write("part.xyz", "what");
+  write("part.off", "OFF\nwhat");
+  write("part.stl", tetrahedron_);
+  fs::create_directories(folder_.path() / "folder.stl");
+  for (const char* name : {"part.xyz", "part.off", "folder.stl", ""}) {
+    const Read read = evaluated("import(\"" + std::string(name) + "\"); cube();", options());
+    EXPECT_EQ(read.warnings.size(), 1u) << name;
+    EXPECT_TRUE(read.unsupported) << name;
+  }
+  const Read without = evaluated("import(\"part.stl\");");
+  EXPECT_EQ(without.warnings[0],
+            "t.csg:1:1: warning: part.stl: files are not read here; nothing is shown for it");
+}
+
+TEST_F(NamedFileTest, TheRootConfinesThem) {
+  write("outside.off", tetrahedron_);
+  write("root/inside.off", tetrahedron_);
+  fs::create_symlink("../outside.off", folder_.path() / "root/link.off");
+  ReadOptions confined = options("root");
+  confined.import_root = (folder_.path() / "root").string();
+  const auto is_read = [&](const std::string& name) {
+    const Read read = evaluated("import(\"" + name + "\");", confined);
+    return !bounds(read.model).box.is_empty();
+  };
+  EXPECT_TRUE(is_read("inside.off"));
+  EXPECT_TRUE(is_read("../root/inside.off"));
+  EXPECT_FALSE(is_read("../outside.off"));
+  EXPECT_FALSE(is_read((folder_.path() / "outside.off").string()));
+  EXPECT_FALSE(is_read("link.off"));
+  // Nor does it say what there is outside.
+  EXPECT_EQ(evaluated("import(\"../none.off\");", confined).warnings[0],
+            "t.csg:1:1: warning: ../none.off: cannot be read: it lies outside the root of imports; "
+            "nothing is shown for it");
+}
+
+TEST_F(NamedFileTest, BytesAreLimitedTogether) {
+  write("a.off", tetrahedron_);
+  write("b.off", tetrahedron_);
+  ReadOptions small = options();
+  small.limits.bytes = tetrahedron_.size() + 20;
+  EXPECT_TRUE(evaluated("import(\"a.off\");", small).warnings.empty());
+  EXPECT_TRUE(evaluated("import(\"a.off\");import(\"a.off\");", small).warnings.empty())
+      << "read once";
+  small.limits.bytes = 2 * tetrahedron_.size() - 1;
+  const Read read = evaluated("import(\"a.off\");import(\"b.off\");", small);
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_NE(read.warnings[0].find("--limit bytes=N"), std::string::npos);
+}
+
+TEST(EvaluationLimits, FacetsAreCountedBeforeTheyAreMade) {
+  ReadOptions options;
+  options.limits.facets = 1000;
+  for (const char* text :
+       {"linear_extrude(1) offset(1) circle(3, $fn = 1e9);",
+        "linear_extrude(1) circle(3, $fn = 1500);", "linear_extrude(1, twist = 1e9) square(3);",
+        "linear_extrude(1, twist = 9, slices = 1e9) square(3);",
+        "linear_extrude(1, twist = 9, segments = 1e9) square(3);",
+        "linear_extrude(1) offset(r = 1e9, $fn = 1e9) square(3);",
+        "rotate_extrude($fn = 2000) offset(1) square(3);", "hull() sphere(3, $fn = 1000);",
+        "minkowski() { sphere(3, $fn = 20); sphere(3, $fn = 20); sphere(3, $fn = 20); }",
+        "linear_extrude(1) minkowski() { circle(3, $fn = 900); circle(3, $fn = 900); circle(3, $fn "
+        "= "
+        "900); }"}) {
+    const std::string message = evaluation_error(text, options);
+    EXPECT_TRUE(message.starts_with("t.csg:1:")) << text << ": " << message;
+    EXPECT_NE(message.find("--limit facets=N raises it"), std::string::npos) << text;
+  }
+}
+
+TEST(EvaluationLimits, DepthTakesNoStack) {
+  constexpr int kDeep = 5000;
+  const auto nested = [&](const std::string& outer, const std::string& inner) {
+    std::string text;
+    for (int i = 0; i < kDeep; ++i) text += outer;
+    return text + inner;
+  };
+  EXPECT_FALSE(bounds(evaluated(nested("hull() ", "cube(1);")).model).box.is_empty());
+  EXPECT_FALSE(bounds(evaluated(nested("minkowski() ", "cube(1);")).model).box.is_empty());
+  evaluated("linear_extrude(1) " + nested("offset(delta = 0.001) ", "square(1);"));
+  evaluated(nested("linear_extrude(1) ", "square(1);"));
+  evaluated(nested("minkowski() { difference() { cube(2); cube(1); } ", "cube(1);") +
+            std::string(kDeep, '}'));
+  EXPECT_NE(evaluation_error(nested("resize([2, 0, 0]) ", "cube(1);"), {}).find("--limit"),
+            std::string::npos);
+  evaluated("linear_extrude(1) " + nested("translate([0.001, 0]) offset(0) ", "square(1);"));
+}
+
+TEST(EvaluationLimits, AModelPassesThrough) {
+  const std::string text =
+      "cube(); difference() { sphere(); %cylinder(); } translate([1, 0, 0]) cube();";
+  const Model model = evaluated(text).model;
+  EXPECT_EQ(model.primitives.size(), 4u) << "with what is under %";
+}
+
+}  // namespace
+}  // namespace whittle

@@ -1,0 +1,145 @@
+// What a leaf says of a boundary, against the winding number of all its triangles.
+#include "subdivide/local_bsp.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "base/result.h"
+#include "lower/evaluate.h"
+#include "lower/lower.h"
+#include "subdivide/simplify.h"
+#include "support/meshes.h"
+
+namespace whittle {
+namespace {
+
+/// Coordinates as six digits give them.
+TriangleMesh printed(const TriangleMesh& mesh) {
+  return changed(mesh, [](double x) { return std::round(x * 1e5) / 1e5; });
+}
+
+/// Corners in the middle, in the middle of halves and so on: where cells are cut.
+TriangleMesh on_cuts(const TriangleMesh& mesh) {
+  return changed(mesh, [](double x) { return std::round(x * 4) / 4; });
+}
+
+std::vector<TriangleMesh> meshes() {
+  const TriangleMesh ball = bumpy_mesh(2, 0.1, 4, 7);
+  return {
+      box_mesh({{-2, -2, -2}, {2, 2, 2}}, 4),
+      star_mesh(7, 0.5, 2, 1),
+      torus_mesh(2, 0.75, 16, 8),
+      ball,
+      printed(ball),
+      printed(torus_mesh(1.9, 0.7, 40, 20)),
+      on_cuts(bumpy_mesh(3, 0.2, 3, 3)),
+      together({ball, box_mesh({{-1, -1, -1}, {3, 3, 3}}, 2)}),
+      together({ball, inside_out(box_mesh({{-1, -1, -1}, {0.5, 0.5, 0.5}}, 1))}),
+      inside_out(torus_mesh(2, 0.5, 9, 7)),
+  };
+}
+
+/// The distance from the nearest plane of a triangle that comes as near as that.
+bool is_near_surface(const Scene& scene, Vec3 p, double distance) {
+  bool near = false;
+  scene.boundaries[0].visit_in(p, {distance, distance, distance}, [&](uint32_t) {
+    near = true;
+    return false;
+  });
+  return near;
+}
+
+class LocalBspOf : public testing::TestWithParam<size_t> {};
+
+TEST_P(LocalBspOf, RandomCellsSaysWhatTheWindingNumberSays) {
+  const Model model = with_meshes("cube(1);", {meshes()[GetParam()]});
+  const Result<Scene> scene = lower(model);
+  ASSERT_TRUE(scene);
+  ASSERT_EQ(scene->boundaries.size(), 1u);
+  const UnitBoxes boxes(*scene);
+  Simplifier simplifier(*scene, boxes, 1e-10 * max_component(scene->region.size()));
+  const double tell = 20 * scene->boundaries[0].slack();
+  LocalBsp bsp(*scene);
+  std::mt19937 random(uint32_t(GetParam()) + 1);
+  std::uniform_real_distribution<double> share(0, 1);
+  Formula formula;
+  int asked = 0, varied = 0;
+  for (int i = 0; i < 3000; ++i) {
+    // Half of them are cells as halving makes them.
+    Box cell = scene->region;
+    const int splits = 1 + int(share(random) * 14);
+    for (int k = 0; k < splits; ++k) {
+      const double cut = i % 2 ? 0.5 : 0.3 + 0.4 * share(random);
+      const double at = cell.lo[k % 3] + cut * cell.size()[k % 3];
+      (share(random) < 0.5 ? cell.lo : cell.hi)[k % 3] = at;
+    }
+    // Crowds are split before anything is made of them.
+    if (bsp.count(scene->units[0], CellBox(cell, 0)) == LocalBsp::kTooMany) continue;
+    const Truth truth = simplifier.simplify(scene->formula, cell, Expand::kAll, formula);
+    varied += truth == Truth::kVaries;
+    for (const Token token : formula) EXPECT_NE(token.kind(), TokenKind::kUnit);
+    for (int k = 0; k < 20; ++k) {
+      const Vec3 p = {cell.lo.x + share(random) * cell.size().x,
+                      cell.lo.y + share(random) * cell.size().y,
+                      cell.lo.z + share(random) * cell.size().z};
+      if (is_near_surface(*scene, p, tell)) continue;
+      const bool inside =
+          truth == Truth::kVaries ? contains(*scene, formula, p) : truth == Truth::kTrue;
+      ++asked;
+      ASSERT_EQ(inside, scene->boundaries[0].winding(p) != 0)
+          << "cell " << i << " at " << p.x << ' ' << p.y << ' ' << p.z;
+    }
+  }
+  EXPECT_GT(asked, 20000);
+  EXPECT_GT(varied, 50);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LocalBspOf, testing::Range<size_t>(0, 10));
+
+// A corner lies on a cell's side: what is beyond reaches the cell with its rim alone.
+TEST(LocalBsp, NeighboursAcrossACornerOnACutAgree) {
+  const Model model = with_meshes("cube(1);", {on_cuts(bumpy_mesh(3, 0.2, 3, 3))});
+  const Result<Scene> scene = lower(model);
+  ASSERT_TRUE(scene);
+  const UnitBoxes boxes(*scene);
+  Simplifier simplifier(*scene, boxes, 1e-10 * max_component(scene->region.size()));
+  const Boundary& boundary = scene->boundaries[0];
+  Formula formula;
+  for (const Boundary::Triangle& triangle : boundary.triangles())
+    for (const uint32_t corner : triangle.corners) {
+      const Vec3 p = boundary.point(corner);
+      for (int i = 0; i < 8; ++i) {
+        const Vec3 q = p + Vec3{i & 1 ? 0.4 : -0.4, i & 2 ? 0.4 : -0.4, i & 4 ? 0.4 : -0.4};
+        const Box cell{min(p, q), max(p, q)};
+        const Truth truth = simplifier.simplify(scene->formula, cell, Expand::kAll, formula);
+        const Vec3 middle = p + (q - p) * 0.37;
+        if (is_near_surface(*scene, middle, 1e-6)) continue;
+        const bool inside =
+            truth == Truth::kVaries ? contains(*scene, formula, middle) : truth == Truth::kTrue;
+        EXPECT_EQ(inside, boundary.winding(middle) != 0);
+      }
+    }
+}
+
+TEST(LocalBsp, AnEdgeIsTwoLiterals) {
+  const Model model = with_meshes("cube(1);", {box_mesh({{-2, -2, -2}, {2, 2, 2}}, 3)});
+  const Result<Scene> scene = lower(model);
+  ASSERT_TRUE(scene);
+  LocalBsp bsp(*scene);
+  const Unit& unit = scene->units[0];
+  const CellBox edge({{1.9, 1.9, -0.1}, {2.1, 2.1, 0.2}}, 0);
+  EXPECT_EQ(bsp.count(unit, edge), 2u);
+  EXPECT_EQ(bsp.formula(unit, edge, false).size(), 3u);
+  EXPECT_EQ(bsp.formula(unit, edge, false)[0].kind(), TokenKind::kAnd);
+  EXPECT_EQ(bsp.formula(unit, edge, true)[0].kind(), TokenKind::kOr);
+  EXPECT_EQ(bsp.operands(), 2u);
+  const CellBox inside({{-1, -1, -1}, {1, 1, 1}}, 0);
+  EXPECT_EQ(bsp.count(unit, inside), 0u);
+  EXPECT_TRUE(bsp.is_inside(unit, inside));
+  EXPECT_EQ(bsp.count(unit, CellBox(scene->region, 0)), LocalBsp::kTooMany);
+}
+
+}  // namespace
+}  // namespace whittle
