@@ -8,9 +8,9 @@
 namespace whittle {
 namespace {
 
-/// A cut beside a box must be so much better than one in the middle: twice as good is the next one
-/// in the middle, too.
-constexpr double kMuchBetter = 1.25;
+/// A cut in the middle must be so much better than one beside a box: it may go through what is
+/// there, and then both parts have the same to do.
+constexpr double kMiddleBetter = 1.25;
 
 /// How far from a box it is cut, so that no surface lies in the cut: of the box, and at least so
 /// many margins.
@@ -139,7 +139,7 @@ std::optional<Cut> BoxCutter::cut(std::span<const Token> formula, const Box& cel
   if (is_filled(formula, cell)) return std::nullopt;
   find_active(formula, cell);
   sort_bounds(middle.axis);
-  double least = kMuchBetter * cost(cell, middle);
+  double least = kMiddleBetter * cost(cell, middle);
   std::optional<Cut> best;
   for (int axis = 0; axis < 3; ++axis) {
     const double beside = kBesideMargins * margin_;
