@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Fuzzes the reader and the whole path to the picture (docs/testing.md):
+# Fuzzes the readers and the whole path to the picture (docs/testing.md):
 #
-#   scripts/fuzz.sh [--seconds N | --runs N] [--seed N] [--fast] [reader|picture]
+#   scripts/fuzz.sh [--seconds N | --runs N] [--seed N] [--fast] [reader|flat|picture|mesh]
 #
-# For N seconds (60 unless said), or for N executions. Both fuzzers run side by side unless one is
+# For N seconds (60 unless said), or for N executions. They run side by side unless one is
 # named. --fast leaves the sanitizers out. Inputs that reach new code gather in build/fuzz/new-NAME
 # (build/fuzz-fast with --fast), where later runs begin; what breaks a rule goes to found-NAME, and
 # the script fails.
@@ -12,14 +12,14 @@ root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)
 source "$root/scripts/setup.sh"
 
 usage() {
-  say "usage: scripts/fuzz.sh [--seconds N | --runs N] [--seed N] [--fast] [reader|picture]"
+  say "usage: scripts/fuzz.sh [--seconds N | --runs N] [--seed N] [--fast] [reader|flat|picture|mesh]"
   exit 2
 }
 
 limit=(-max_total_time=60)
 seed=0 # libFuzzer's word for one of its own choice
 preset=fuzz
-names=(reader picture)
+names=(reader flat picture mesh)
 while (($#)); do
   case $1 in
     --seconds | --runs | --seed)
@@ -32,7 +32,7 @@ while (($#)); do
       shift 2
       ;;
     --fast) preset=fuzz-fast && shift ;;
-    reader | picture) names=("$1") && shift ;;
+    reader | flat | picture | mesh) names=("$1") && shift ;;
     *) usage ;;
   esac
 done
@@ -48,8 +48,10 @@ folder=build/$preset
 # start NAME: becomes its fuzzer; its words go to a file.
 start() {
   local options=(-max_len=4096 "-dict=tests/fuzz/reader.dict")
+  if [[ $1 == flat ]]; then options=(-max_len=1024 "-dict=tests/fuzz/flat.dict"); fi
   # Pictures are best when the models are large from the start.
   if [[ $1 == picture ]]; then options=(-max_len=100 -len_control=0); fi
+  if [[ $1 == mesh ]]; then options[1]=-dict=tests/fuzz/mesh.dict; fi
   # Fewer frames for each allocation and a smaller quarantine make it faster.
   export ASAN_OPTIONS=malloc_context_size=2:quarantine_size_mb=32:${ASAN_OPTIONS:-}
   export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}

@@ -221,6 +221,7 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   json["leaf_literals"] = leaf_literals;
   json["cells_bytes"] = cells.memory_bytes;
   json["cells_looked_at"] = looked_at.cell_count();
+  json["largest_leaf"] = looked_at.leaves_by_size.empty() ? 0 : looked_at.leaves_by_size.size() - 1;
   json["rays"] = rays;
   json["cell_visits_per_ray"] = double(stats.cells) / double(rays);
   json["leaf_visits_per_ray"] = double(stats.leaves) / double(rays);

@@ -72,8 +72,14 @@ Status say_warnings(const Read& read, const Loading& loading) {
   if (loading.strict && read.unsupported) {
     return Error{ErrorKind::kInput, read.refusal + " (--strict)"};
   }
-  if (loading.scad.hard_warnings && !read.warnings.empty()) {
-    return Error{ErrorKind::kInput, read.warnings.front() + " (--hardwarnings)"};
+  if (loading.scad.hard_warnings) {
+    // What openscad says it has judged itself, and not all of that is a warning.
+    const std::string said = read.model.file + ": openscad: ";
+    const auto first = std::ranges::find_if_not(
+        read.warnings, [&](const std::string& warning) { return warning.starts_with(said); });
+    if (first != read.warnings.end()) {
+      return Error{ErrorKind::kInput, *first + " (--hardwarnings)"};
+    }
   }
   if (loading.quiet) return Done{};
   for (const std::string& warning : read.warnings) say(warning);

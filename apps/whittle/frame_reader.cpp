@@ -1,7 +1,5 @@
 #include "frame_reader.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <thread>
 #include <utility>
@@ -21,7 +19,7 @@ FrameReader::FrameReader(std::string file, ReadOptions options, std::vector<doub
 void FrameReader::read_ahead() {
   for (; started_ < times_.size() && running_.size() < at_a_time_; ++started_) {
     ReadOptions options = options_;
-    options.flatten.definitions.push_back(fmt::format("$t={}", times_[started_]));
+    options.flatten.time = times_[started_];
     running_.push_back(std::async(std::launch::async, [file = file_, options = std::move(options)] {
       return read_file(file, options);
     }));

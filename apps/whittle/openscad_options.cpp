@@ -34,7 +34,7 @@ void add_animation(OptionGroup& group, Animation& animation) {
 
 std::string describe_program() {
   const std::optional<std::string> openscad = find_openscad();
-  return fmt::format("whittle {}\nopenscad, for .scad files: {}\n", WHITTLE_VERSION,
+  return fmt::format("whittle {}\nopenscad, for .scad files: {}", WHITTLE_VERSION,
                      openscad ? *openscad : "not found");
 }
 

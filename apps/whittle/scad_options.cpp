@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "io/input_kinds.h"
 
 namespace whittle {

@@ -237,10 +237,12 @@ void Evaluator::close() {
       polygons_.push_back(std::move(operands.front()));
     }
   } else if (frame.mode == Mode::kCorners && frame.separate && frame.operands > 1) {
-    refuse(frame.node,
-           "hulls and sums of what is cut are not supported yet: of this only the first operand "
-           "counts",
-           "hulls and sums of what is cut are not supported yet");
+    // A sum says by itself that it is not known.
+    if (!frame.wants_convex) {
+      refuse(frame.node,
+             "hulls of what is cut are not supported yet: of this only the first operand counts",
+             "hulls of what is cut are not supported yet");
+    }
     std::erase_if(corners_, [&, i = size_t{0}](CornerSet& set) mutable {
       const bool is_own = i++ >= frame.first_corners;
       if (is_own) set.is_convex = false;

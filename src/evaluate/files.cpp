@@ -25,11 +25,11 @@ const std::string* Files::content(const std::string& file, SourceLocation where)
   }
   const auto [found, is_new] = flat_.try_emplace(file);
   if (!is_new) return &found->second;
-  const auto refuse = [&](const std::string& why) {
+  const auto refuse = [&, place = found](const std::string& why) {
     warnings_.add_unsupported(kKindUnread, where,
                               fmt::format("{}: {}; nothing is shown for it", printable(file), why),
                               fmt::format("{}: {}", printable(file), why));
-    flat_.erase(found);
+    flat_.erase(place);
     return nullptr;
   };
   if (!options_.read_file) return refuse("files are not read here");
@@ -38,7 +38,7 @@ const std::string* Files::content(const std::string& file, SourceLocation where)
   if (!*content) {
     warnings_.add("there is no file of this name; nothing is shown for it", where,
                   fmt::format("there is no file {}; nothing is shown for it", printable(file)));
-    flat_.erase(found);
+    flat_.erase(file);
     return nullptr;
   }
   found->second = std::move(**content);

@@ -53,6 +53,14 @@ Polygons transformed(const Affine& map, Polygons polygons) {
   return polygons;
 }
 
+bool is_measurable(const Polygons& polygons) {
+  constexpr double kFarthest = 1e75;
+  for (const Contour& contour : polygons.contours)
+    for (const Vec2 p : contour)
+      if (!(std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest)) return false;
+  return !polygons.is_empty();
+}
+
 uint64_t corner_count(const Polygons& polygons) {
   uint64_t count = 0;
   for (const Contour& contour : polygons.contours) count += contour.size();

@@ -20,6 +20,9 @@ Affine flat_map(const Affine& map);
 
 Polygons transformed(const Affine& map, Polygons polygons);
 
+/// True if they are not empty, and no corner is so far away that areas cannot be told.
+bool is_measurable(const Polygons& polygons);
+
 /// The corners of all contours.
 uint64_t corner_count(const Polygons& polygons);
 uint64_t corner_count(std::span<const Polygons> polygons);

@@ -336,9 +336,9 @@ std::vector<CornerSet> Evaluator::take_corners(const Frame& frame) {
 /// What an operation or a leaf has come to goes where the node around it wants it.
 void Evaluator::give(const Frame& frame, Polygons polygons) {
   const Frame& parent = open_.back();
-  if (polygons.is_empty() && parent.mode == Mode::kFlat) return;
   if (parent.mode == Mode::kFlat) {
-    polygons_.push_back(transformed(parent.map, std::move(polygons)));
+    polygons = transformed(parent.map, std::move(polygons));
+    if (is_measurable(polygons)) polygons_.push_back(std::move(polygons));
   } else {
     const Node& node = node_of(frame);
     add_embedded(polygons, document_.operation_ids[node.payload], node);

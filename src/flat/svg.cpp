@@ -2,8 +2,11 @@
 // filled whatever their style says, open lines are the areas of their strokes.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,11 +15,12 @@
 #include "flat/outlines.h"
 #include "flat/svg_pen.h"
 #include "flat/svg_values.h"
+#include "flat/sweep_work.h"
 
 namespace whittle {
 namespace {
 
-constexpr size_t kMostCorners = 4'000'000;
+constexpr size_t kMostCorners = 1'000'000;
 
 /// `use` within `use`, and how many elements may be drawn by it in all: either could have no end.
 constexpr size_t kDeepestUse = 16, kMostUsed = 1'000'000;
@@ -79,6 +83,13 @@ SvgStroke stroke_of(const Attributes& attributes) {
   if (cap == "butt") stroke.cap = SvgCap::kButt;
   if (cap == "round") stroke.cap = SvgCap::kRound;
   return stroke;
+}
+
+/// With six digits.
+double as_printed(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return std::strtod(text, nullptr);
 }
 
 /// The contours of a shape, each of which may cross itself and the others.
@@ -171,8 +182,8 @@ class SvgReader {
       if (name == "svg") page_ = page();
       if (frame.is_selected && is_shape) draw(name, frame.map);
       if (frame.is_selected && (name == "text" || name == "image"))
-        remark_("text and pictures in an SVG file are left out",
-                "text and pictures in it are left out");
+        say("text and pictures in an SVG file are left out",
+            "text and pictures in it are left out");
       if (name == "use") {
         frame.map = frame.map * SvgMap{.e = number("x"), .f = number("y")};
         frames_.push_back(frame);
@@ -186,6 +197,11 @@ class SvgReader {
   void close() {
     frames_.pop_back();
     if (sources_.back().floor != 0 && frames_.size() == sources_.back().floor) sources_.pop_back();
+  }
+
+  /// Once a file.
+  void say(const char* kind, const char* message) {
+    if (said_.insert(kind).second) remark_(kind, message);
   }
 
   void select(Frame& frame) {
@@ -213,11 +229,11 @@ class SvgReader {
     return std::ranges::find(kShapes, name) != std::end(kShapes);
   }
 
-  double number(std::string_view name) const {
+  double number(std::string_view name) {
     const std::string_view text = attributes_.get(name);
     if (!text.empty() && !is_svg_number(text))
-      remark_("lengths with a unit in an SVG file count as 0, as in OpenSCAD",
-              "lengths with a unit in it count as 0, as in OpenSCAD");
+      say("lengths with a unit in an SVG file count as 0, as in OpenSCAD",
+          "lengths with a unit in it count as 0, as in OpenSCAD");
     return svg_number(text);
   }
 
@@ -254,17 +270,22 @@ class SvgReader {
     if (!shape.empty()) shapes_.push_back(std::move(shape));
   }
 
-  void rectangle(SvgPen& pen) const {
+  void rectangle(SvgPen& pen) {
     const Vec2 lo{number("x"), number("y")}, size{number("width"), number("height")};
     const Vec2 hi = lo + size;
     Vec2 r{number("rx"), number("ry")};
     if (!(r.x > 0)) r.x = std::max(r.y, 0.0);
     if (!(r.y > 0)) r.y = r.x;
     r = {std::min(r.x, size.x / 2), std::min(r.y, size.y / 2)};
-    if (!(r.x > 0 && r.y > 0)) r = {};
+    const bool is_round = r.x > 0 && r.y > 0;
+    if (!is_round) r = {};
+    // OpenSCAD writes round ones down as path data first; the number of steps hangs on that.
+    const auto written = [&](Vec2 p) {
+      return is_round ? Vec2{as_printed(p.x), as_printed(p.y)} : p;
+    };
     const auto corner = [&](Vec2 from, Vec2 to) {
-      pen.line_to(from);
-      pen.arc_to({.radii = r, .is_positive = true}, to);
+      pen.line_to(written(from));
+      pen.arc_to({.radii = written(r), .is_positive = true}, written(to));
     };
     corner({hi.x - r.x, lo.y}, {hi.x, lo.y + r.y});
     corner({hi.x, hi.y - r.y}, {hi.x - r.x, hi.y});
@@ -283,18 +304,25 @@ class SvgReader {
   }
 
   /// All shapes on the page, y up.
-  Polygons placed() {
+  Result<Polygons> placed() {
     Vec2 shift{-page_.align.x, page_.size.y - page_.align.y};
     if (how_.center) shift = center();
     std::vector<Polygons> all;
     all.reserve(shapes_.size());
+    Shape outlines;
+    uint64_t work = 0;
+    const Error too_much{ErrorKind::kInput, "it has too many lines across one another"};
     for (Shape& shape : shapes_) {
       for (Contour& contour : shape)
         for (Vec2& p : contour)
           p = {page_.scale.x * (p.x - page_.view.x) - shift.x,
                shift.y - page_.scale.y * (p.y + page_.view.y)};
+      work += estimate_sweep_work(shape);
+      if (work > kMostSweepWork) return too_much;
       all.push_back(even_odd(shape));
+      for (const Contour& contour : all.back().contours) outlines.push_back(contour);
     }
+    if (work + estimate_sweep_work(outlines) > kMostSweepWork) return too_much;
     return unite(all);
   }
 
@@ -320,6 +348,7 @@ class SvgReader {
   std::vector<Source> sources_;
   std::vector<Frame> frames_;
   Attributes attributes_;  ///< of the element that was opened last
+  std::set<std::string> said_;
   size_t used_ = 0, left_ = kMostCorners;
   SvgPage page_;
   std::vector<Shape> shapes_;

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "model/facets.h"
+
 namespace whittle {
 namespace {
 
@@ -87,19 +89,20 @@ void SvgPen::arc_to(const Arc& arc, Vec2 to) {
   double rx = std::fabs(arc.radii.x), ry = std::fabs(arc.radii.y);
   if (from == to) return;
   if (rx == 0 || ry == 0) return line_to(to);
-  const double angle = arc.turn_degrees * std::numbers::pi / 180;
-  const double cosine = std::cos(angle), sine = std::sin(angle);
+  const double cosine = cos_degrees(arc.turn_degrees), sine = sin_degrees(arc.turn_degrees);
   // In the axes of the ellipse, from the middle between the ends.
   const Vec2 half = (from - to) * 0.5;
   const Vec2 p{cosine * half.x + sine * half.y, cosine * half.y - sine * half.x};
-  const double too_short = (p.x / rx) * (p.x / rx) + (p.y / ry) * (p.y / ry);
+  // The terms stand as the appendix has them: the number of steps may hang on a rounding.
+  const double too_short = p.x * p.x / (rx * rx) + p.y * p.y / (ry * ry);
   if (too_short > 1) {
     rx *= std::sqrt(too_short);
     ry *= std::sqrt(too_short);
   }
+  const double rest = rx * rx * ry * ry - rx * rx * p.y * p.y - ry * ry * p.x * p.x;
   const double across = rx * rx * p.y * p.y + ry * ry * p.x * p.x;
-  const double side = (arc.is_large == arc.is_positive ? -1 : 1) *
-                      std::sqrt(std::max(rx * rx * ry * ry - across, 0.0) / across);
+  const double side =
+      (arc.is_large == arc.is_positive ? -1 : 1) * std::sqrt(std::max(rest, 0.0) / across);
   const Vec2 c{side * rx * p.y / ry, -side * ry * p.x / rx};
   const Vec2 begin{(p.x - c.x) / rx, (p.y - c.y) / ry}, end{(-p.x - c.x) / rx, (-p.y - c.y) / ry};
   const Vec2 center =
@@ -150,7 +153,7 @@ void SvgPen::keep_stroke_if_open() {
 
 void SvgPen::keep_stroke() {
   const Contour line = std::exchange(contour_, {});
-  if (line.empty() || !(stroke_.width < kWidest)) return;
+  if (line.empty() || is_full_ || !(stroke_.width < kWidest)) return;
   ClipperLib::Path path;
   path.reserve(line.size());
   for (const Vec2 p : line) {

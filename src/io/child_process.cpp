@@ -62,19 +62,21 @@ bool open_as(int number, const char* path, int flags) {
 
 /// What happens in the child; if it returns, errno says why. Only what is allowed between fork and
 /// exec where there are other threads.
-void become(const char* program, const char* const* arguments, const char* messages, pid_t parent,
-            const sigset_t& signals) {
+void become(const char* program, const char* const* arguments,
+            const ProgramSurroundings& surroundings, pid_t parent, const sigset_t& signals) {
   ::setpgid(0, 0);
 #ifdef __linux__
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
   // It may have gone before that was said.
   if (::getppid() != parent) ::_exit(1);
-  if (!open_as(STDIN_FILENO, "/dev/null", O_RDONLY) ||
-      !open_as(STDOUT_FILENO, messages, O_WRONLY | O_CREAT | O_TRUNC) ||
+  if (!open_as(STDIN_FILENO, surroundings.input.c_str(), O_RDONLY) ||
+      !open_as(STDOUT_FILENO, surroundings.messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC) ||
       ::dup2(STDOUT_FILENO, STDERR_FILENO) < 0) {
     return;
   }
+  const char* const folder = surroundings.folder.c_str();
+  if (*folder != '\0' && ::chdir(folder) != 0) return;
   // The parent's handlers are not the child's; what is ignored stays so.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction action {};
@@ -86,8 +88,8 @@ void become(const char* program, const char* const* arguments, const char* messa
 }
 
 /// Starts it; its id, or -1 and the error number.
-pid_t start(const char* program, const char* const* arguments, const char* messages,
-            std::atomic<pid_t>* place, int& error) {
+pid_t start(const char* program, const char* const* arguments,
+            const ProgramSurroundings& surroundings, std::atomic<pid_t>* place, int& error) {
   // Closes when the program starts; else the error number comes through it.
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) {
@@ -101,7 +103,7 @@ pid_t start(const char* program, const char* const* arguments, const char* messa
     child = ::fork();
     error = errno;
     if (child == 0) {
-      become(program, arguments, messages, parent, quiet.before());
+      become(program, arguments, surroundings, parent, quiet.before());
       error = errno;
       (void)!::write(ends[1], &error, sizeof error);
       ::_exit(1);
@@ -123,9 +125,9 @@ pid_t start(const char* program, const char* const* arguments, const char* messa
 }  // namespace
 
 std::optional<int> run_program(const std::string& program, const char* const* arguments,
-                               const std::string& messages, int& error) {
+                               const ProgramSurroundings& surroundings, int& error) {
   std::atomic<pid_t>* const place = take_place();
-  const pid_t child = start(program.c_str(), arguments, messages.c_str(), place, error);
+  const pid_t child = start(program.c_str(), arguments, surroundings, place, error);
   siginfo_t ended{};
   // Not yet reaped: as long as it is in the list its id is its own.
   while (child > 0 && ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT) != 0 &&

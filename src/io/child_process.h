@@ -8,13 +8,19 @@
 
 namespace whittle {
 
-/// Runs a program without a shell; its input is empty, its output and errors go to the file
-/// `messages`. `arguments` end with a null. The status as of waitpid, or the error number in
-/// `error`. It is a process group of its own, so what it starts can be ended with it; where this
-/// process is killed outright the system kills the program (Linux). May be used from several
-/// threads.
+/// What a program is given besides its arguments.
+struct ProgramSurroundings {
+  std::string messages;             ///< the file that its output and errors go to
+  std::string input = "/dev/null";  ///< the file that it reads as standard input
+  std::string folder{};             ///< where it runs; empty: here
+};
+
+/// Runs a program without a shell. `arguments` end with a null. The status as of waitpid, or the
+/// error number in `error`. It is a process group of its own, so what it starts can be ended with
+/// it; where this process is killed outright the system kills the program (Linux). May be used from
+/// several threads.
 std::optional<int> run_program(const std::string& program, const char* const* arguments,
-                               const std::string& messages, int& error);
+                               const ProgramSurroundings& surroundings, int& error);
 
 /// Kills every program that runs, with what it has started, and waits for its end: from there on it
 /// writes nothing. run_program then never returns. Async-signal-safe: for a handler that then ends

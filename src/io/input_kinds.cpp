@@ -27,21 +27,32 @@ constexpr std::array<Foreign, 10> kForeign = {{
     {"<", "XML; a drawing's name has to end in .svg, a mesh's in .amf"},
 }};
 
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(), [](char c) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  });
+  return lower;
+}
+
 }  // namespace
 
 InputKind kind_of_input(std::string_view path) {
   constexpr std::array<std::string_view, 7> kShapes = {"stl", "off", "obj", "3mf",
                                                        "amf", "svg", "dxf"};
   const size_t name = path.rfind('/') + 1, dot = path.rfind('.');
-  std::string ending(dot == std::string_view::npos || dot < name ? "" : path.substr(dot + 1));
-  std::ranges::transform(ending, ending.begin(), [](char c) {
-    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  });
+  const std::string ending =
+      lower_case(dot == std::string_view::npos || dot < name ? "" : path.substr(dot + 1));
   if (ending == "scad") return InputKind::kScad;
   return std::ranges::find(kShapes, ending) == kShapes.end() ? InputKind::kCsg : InputKind::kShape;
 }
 
 std::optional<std::string> describe_foreign(std::string_view bytes) {
+  constexpr size_t kWord = 14;
+  const std::string first = lower_case(bytes.substr(0, kWord));
+  if (first.starts_with("<!doctype html") || first.starts_with("<html")) {
+    return "it is a web page, no model";
+  }
   for (const Foreign& foreign : kForeign) {
     if (bytes.starts_with(foreign.first_bytes)) return "it is " + std::string(foreign.what);
   }

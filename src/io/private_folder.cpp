@@ -16,11 +16,12 @@ namespace whittle {
 struct PrivateFolder::Pending {
   explicit Pending(const PrivateFolder& folder)
       : path(folder.path_),
+        program(folder.program()),
         csg(folder.csg()),
         messages(folder.messages()),
         dependencies(folder.dependencies()) {}
   // The folder first: what is pending is removed from the latest to the first.
-  PendingFile path, csg, messages, dependencies;
+  PendingFile path, program, csg, messages, dependencies;
 };
 
 std::optional<PrivateFolder> PrivateFolder::create() {
@@ -49,6 +50,7 @@ PrivateFolder::PrivateFolder(PrivateFolder&& other) noexcept
 
 PrivateFolder::~PrivateFolder() {
   if (path_.empty()) return;
+  ::unlink(program().c_str());
   ::unlink(csg().c_str());
   ::unlink(messages().c_str());
   ::unlink(dependencies().c_str());

@@ -17,6 +17,7 @@ class PrivateFolder {
   PrivateFolder& operator=(PrivateFolder&&) = delete;
   ~PrivateFolder();
 
+  std::string program() const { return path_ + "/program.scad"; }
   std::string csg() const { return path_ + "/model.csg"; }
   std::string messages() const { return path_ + "/messages"; }
   std::string dependencies() const { return path_ + "/dependencies"; }

@@ -35,6 +35,7 @@ struct FlattenOptions {
   std::string
       program{};         ///< a path, or a name on PATH; empty: what $OPENSCAD says, else "openscad"
   bool renders = false;  ///< `$preview` is false
+  std::optional<double> time{};                 ///< `$t` of a frame
   std::vector<std::string> definitions{};       ///< `name=value` in OpenSCAD's language
   std::optional<std::string> parameter_file{};  ///< of the customizer, and a set in it
   std::optional<std::string> parameter_set{};

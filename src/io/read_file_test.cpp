@@ -89,10 +89,13 @@ TEST_F(ReadFileTest, AScadFileIsFlattened) {
   const Result<Read> read = read_file(path);
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(tree(read->model), "U(c1 U())");
-  EXPECT_EQ(read->model.file, path + " (flattened)");
+  EXPECT_EQ(read->model.file, path);
   ASSERT_EQ(read->warnings.size(), 2u);
   EXPECT_EQ(read->warnings[0], path + ": openscad: WARNING: odd");
-  EXPECT_TRUE(read->warnings[1].starts_with(path + " (flattened):2:1: warning: "));
+  EXPECT_TRUE(read->warnings[1].starts_with(path + ": warning: in \"roof()\": "))
+      << read->warnings[1];
+  ASSERT_TRUE(read->unsupported);
+  EXPECT_TRUE(read->refusal.starts_with(path + ": error: in \"roof()\": ")) << read->refusal;
   EXPECT_TRUE(fs::is_empty(folder_ / "tmp"));
 }
 
@@ -118,7 +121,7 @@ TEST_F(ReadFileTest, WhatOpenscadSaysIsPassedOn) {
 }
 
 TEST_F(ReadFileTest, TheFirstErrorOfOpenscadIsOneWithItsPlace) {
-  const std::string path = write("a.scad", "");
+  const std::string path = write("a.scad", std::string(20, '\n'));
   const std::string folder = path.substr(0, path.rfind('/') + 1);
   const auto error_where_openscad_says = [&](const std::string& lines, int exit_code) {
     install_openscad("cat >&2 <<'END'\n" + lines + "\nEND\necho 'cube();' > \"$2\"\nexit " +
@@ -133,6 +136,9 @@ TEST_F(ReadFileTest, TheFirstErrorOfOpenscadIsOneWithItsPlace) {
   const std::string expected = path + ":12: error: openscad: Assertion '(1 > 2)' failed: \"no\"";
   EXPECT_EQ(error_where_openscad_says(traced, 0), expected);
   EXPECT_EQ(error_where_openscad_says(traced, 1), expected);
+  // Where the file ends too early, openscad speaks of what it has appended.
+  EXPECT_EQ(error_where_openscad_says("ERROR: x in file a.scad, line 22", 0),
+            path + ":20: error: openscad: x");
   EXPECT_EQ(error_where_openscad_says("ERROR: x in file lib/b, line 1.scad, line 2", 0),
             folder + "lib/b, line 1.scad:2: error: openscad: x");
   EXPECT_EQ(error_where_openscad_says("ERROR: x in file /b.scad, line 2", 0),

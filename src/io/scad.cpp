@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -18,6 +19,7 @@
 #include "io/input_kinds.h"
 #include "io/openscad_messages.h"
 #include "io/openscad_view.h"
+#include "io/output_file.h"
 #include "io/private_folder.h"
 
 namespace whittle {
@@ -88,15 +90,30 @@ Result<std::string> absolute_source(const std::string& path) {
   return source;
 }
 
+/// A frame's program comes by standard input and begins with its `$t`: set by -D, which comes last,
+/// it would be too late for what the program computes from it. The lines are the program's own.
+Status write_frame(const std::string& text, double time, const std::string& path) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  const std::string_view whole = text;
+  return write_file(path, fmt::format("$t={};{}", time,
+                                      whole.substr(whole.starts_with(kMark) ? kMark.size() : 0)));
+}
+
+std::string absolute(const std::string& path) {
+  return std::filesystem::absolute(path).string();
+}
+
 std::vector<std::string> command_line(const std::string& source, const FlattenOptions& options,
                                       const PrivateFolder& folder) {
-  std::vector<std::string> words = {"openscad", "-o", folder.csg(),
-                                    source,     "-d", folder.dependencies()};
+  std::vector<std::string> words = {
+      "openscad", "-o", folder.csg(), options.time ? "-" : source, "-d", folder.dependencies()};
   // A value that begins with a dash is taken for an option, unless it is joined to its own.
   if (options.renders) words.emplace_back("--render=force");
   for (const std::string& definition : options.definitions) words.push_back("-D" + definition);
   words.push_back("-D" + view_question());
-  if (options.parameter_file) words.push_back("-p" + *options.parameter_file);
+  if (options.parameter_file)
+    words.push_back("-p" +
+                    (options.time ? absolute(*options.parameter_file) : *options.parameter_file));
   if (options.parameter_set) words.push_back("-P" + *options.parameter_set);
   words.insert(words.end(), options.arguments.begin(), options.arguments.end());
   return words;
@@ -112,6 +129,14 @@ std::vector<std::string> files_read(const std::string& path, const std::string& 
     if (file != source) files.push_back(std::move(file));
   }
   return files;
+}
+
+/// What openscad calls its standard input, by the file's name.
+void call_by_name(std::string& messages, const std::string& name) {
+  constexpr std::string_view kInput = "<stdin>";
+  for (size_t at = 0; (at = messages.find(kInput, at)) != std::string::npos; at += name.size()) {
+    messages.replace(at, kInput.size(), name);
+  }
 }
 
 AssignedViews assigned_views(const std::string& source_text, const std::vector<std::string>& files,
@@ -155,8 +180,16 @@ Result<Flattened> flatten_scad(const std::string& path, const FlattenOptions& op
   for (const std::string& word : words) arguments.push_back(word.c_str());
   arguments.push_back(nullptr);
   int error = 0;
+  ProgramSurroundings surroundings{.messages = folder->messages()};
+  if (options.time) {
+    if (Status written = write_frame(*source_text, *options.time, folder->program()); !written) {
+      return failure(ErrorKind::kMachine, path, written.error().message);
+    }
+    surroundings.input = folder->program();
+    surroundings.folder = source->substr(0, source->rfind('/') + 1);
+  }
   const std::optional<int> status =
-      run_program(*program, arguments.data(), folder->messages(), error);
+      run_program(absolute(*program), arguments.data(), surroundings, error);
   if (!status) {
     return failure(ErrorKind::kMachine, path,
                    fmt::format("{} cannot be run: {}", *program, reason(error)));
@@ -164,11 +197,13 @@ Result<Flattened> flatten_scad(const std::string& path, const FlattenOptions& op
   Flattened flattened;
   if (Result<std::string> messages = read_text(folder->messages())) {
     flattened.messages = std::move(*messages);
+    if (options.time) call_by_name(flattened.messages, source->substr(source->rfind('/') + 1));
   }
   flattened.files = files_read(path, *source, *folder);
   flattened.view =
       take_view(flattened.messages, assigned_views(*source_text, flattened.files, options));
-  if (std::optional<Error> error_said = first_error(flattened.messages, path, *source)) {
+  if (std::optional<Error> error_said =
+          first_error(flattened.messages, path, *source, *source_text)) {
     return *std::move(error_said);
   }
   Result<std::string> text = read_text(folder->csg());

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <ranges>
 #include <span>
 #include <vector>
 
@@ -120,8 +119,44 @@ inline Operands operands_of(Operand group) {
 }
 
 /// All faces, units and groups' headers of a formula, in their order.
-inline auto flat_tokens(std::span<const Token> formula) {
-  return formula | std::views::filter([](Token token) { return !token.is_pass(); });
+class FlatTokens {
+ public:
+  class Iterator {
+   public:
+    using value_type = Token;
+    using difference_type = std::ptrdiff_t;
+
+    Iterator() = default;
+    explicit Iterator(std::span<const Token> rest) : rest_(rest) { skip_passes(); }
+    Token operator*() const { return rest_.front(); }
+    Iterator& operator++() {
+      rest_ = rest_.subspan(1);
+      skip_passes();
+      return *this;
+    }
+    Iterator operator++(int) {
+      const Iterator before = *this;
+      ++*this;
+      return before;
+    }
+    bool operator==(std::default_sentinel_t) const { return rest_.empty(); }
+
+   private:
+    void skip_passes() {
+      while (!rest_.empty() && rest_.front().is_pass()) rest_ = rest_.subspan(1);
+    }
+    std::span<const Token> rest_;
+  };
+
+  explicit FlatTokens(std::span<const Token> formula) : formula_(formula) {}
+  Iterator begin() const { return Iterator(formula_); }
+  static std::default_sentinel_t end() { return {}; }
+
+ private:
+  std::span<const Token> formula_;
+};
+inline FlatTokens flat_tokens(std::span<const Token> formula) {
+  return FlatTokens(formula);
 }
 
 /// Reads a formula from its first token to its last: calls enter(operand) where a group begins,

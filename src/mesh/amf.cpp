@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include "base/xml_scanner.h"
 #include "mesh/formats.h"
 #include "mesh/text_scanner.h"
-#include "base/xml_scanner.h"
 #include "mesh/zip_archive.h"
 
 namespace whittle {

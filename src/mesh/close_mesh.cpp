@@ -8,15 +8,13 @@
 #include "mesh/cut_face.h"
 #include "mesh/find_facets.h"
 #include "mesh/mend_cracks.h"
+#include "mesh/remove_films.h"
 #include "mesh/turn_faces.h"
 #include "mesh/turn_parts.h"
 #include "mesh/weld_points.h"
 
 namespace whittle {
 namespace {
-
-/// Products of three coordinates beyond this are no numbers any more.
-constexpr double kFarthest = 1e75;
 
 bool is_near(Vec3 p) {
   return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest && std::fabs(p.z) <= kFarthest;
@@ -58,48 +56,6 @@ std::vector<Corners> cut_faces(const RawMesh& raw, const std::vector<uint32_t>& 
   return triangles;
 }
 
-/// Removes pairs of triangles that lie on one another, back to back or face to face.
-void remove_films(std::vector<Corners>& triangles) {
-  struct Entry {
-    Corners sorted;
-    uint32_t triangle;
-    bool even;
-  };
-  std::vector<Entry> entries;
-  entries.reserve(triangles.size());
-  for (uint32_t t = 0; t < triangles.size(); ++t) {
-    Corners c = triangles[t];
-    bool even = true;
-    const auto order = [&](size_t i, size_t j) {
-      if (c[i] > c[j]) std::swap(c[i], c[j]), even = !even;
-    };
-    order(0, 1), order(1, 2), order(0, 1);
-    entries.push_back({c, t, even});
-  }
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return a.sorted != b.sorted ? a.sorted < b.sorted : a.triangle < b.triangle;
-  });
-  std::vector<uint8_t> is_gone(triangles.size(), 0);
-  for (size_t i = 0; i < entries.size();) {
-    std::vector<uint32_t> waiting[2];
-    size_t k = i;
-    for (; k < entries.size() && entries[k].sorted == entries[i].sorted; ++k) {
-      std::vector<uint32_t>& against = waiting[entries[k].even ? 0 : 1];
-      if (against.empty()) {
-        waiting[entries[k].even ? 1 : 0].push_back(entries[k].triangle);
-      } else {
-        is_gone[against.back()] = is_gone[entries[k].triangle] = 1;
-        against.pop_back();
-      }
-    }
-    i = k;
-  }
-  size_t kept = 0;
-  for (size_t t = 0; t < triangles.size(); ++t)
-    if (!is_gone[t]) triangles[kept++] = triangles[t];
-  triangles.resize(kept);
-}
-
 }  // namespace
 
 ClosedMesh close_mesh(const RawMesh& raw, int digits) {
@@ -118,14 +74,14 @@ ClosedMesh close_mesh(const RawMesh& raw, int digits) {
   } else {
     const std::vector<uint32_t> first = weld_points(raw.points, error);
     triangles = cut_faces(raw, first);
-    remove_films(triangles);
+    remove_films(triangles, raw.points.size());
     MeshParts parts = turn_faces(raw.points, triangles);
     // A corner may be off by an error along each axis, and so may the edge that it is to lie on.
     const double reach = std::numbers::sqrt3 * tolerance;
     constexpr int kPasses = 2;
     for (int pass = 0; pass < kPasses && parts.open_edges > 0; ++pass) {
       if (!mend_cracks(raw.points, triangles, reach)) break;
-      remove_films(triangles);
+      remove_films(triangles, raw.points.size());
       const size_t turned = parts.turned;
       parts = turn_faces(raw.points, triangles);
       parts.turned += turned;

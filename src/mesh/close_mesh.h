@@ -20,9 +20,13 @@ struct RawMesh {
   std::vector<std::vector<uint32_t>> faces;
   /// Triangles, in place of `faces` where there are millions.
   std::vector<std::array<uint32_t, 3>> triangles;
-  /// Made so that no point is given twice, every edge is closed, and all faces face outward.
+  /// Made so that no point is given twice, none is farther away than kFarthest, every edge is
+  /// closed, and all faces face outward.
   bool is_closed = false;
 };
+
+/// Products of three coordinates beyond this are no numbers any more.
+inline constexpr double kFarthest = 1e75;
 
 struct ClosedMesh {
   TriangleMesh mesh;        ///< without triangles: nothing closed was left
@@ -36,8 +40,8 @@ struct ClosedMesh {
 /// are cut into triangles and, within each part that hangs together by edges, turned so that
 /// neighbours agree, most of them as they were. Parts that have an open edge are left out. If the
 /// volume of all is negative all is turned; a part of negative volume that no other is around is
-/// turned, too. Faces with a corner that is not finite, or farther away than 1e75, are not there.
-/// Linear, but for the faces that have thousands of corners.
+/// turned, too. Faces with a corner that is not finite, or farther away than kFarthest, are not
+/// there. About n log n.
 ClosedMesh close_mesh(const RawMesh& raw, int digits);
 
 }  // namespace whittle

@@ -92,6 +92,39 @@ TEST(CloseMesh, CavitiesStayAndPartsInsideOutDoNot) {
   // Beside one another.
   EXPECT_DOUBLE_EQ(volume(close_mesh(both(cube(), turned(cube({9, 0, 0}, 0.25))), 6).mesh),
                    24 + 24.0 / 64);
+  // On a side of it, without and within.
+  EXPECT_DOUBLE_EQ(volume(close_mesh(both(cube(), turned(cube({0.5, 0.5, 4}, 0.25))), 6).mesh),
+                   24 + 24.0 / 64);
+  EXPECT_DOUBLE_EQ(volume(close_mesh(both(cube(), turned(cube({0.5, 0.5, 0}, 0.25))), 6).mesh),
+                   hollow);
+}
+
+TEST(CloseMesh, AFinAtAnEdgeIsLeftOutAlone) {
+  RawMesh raw = cube();
+  raw.points.push_back({1, -1, -1});
+  raw.faces.push_back({0, 1, 8});
+  const ClosedMesh closed = close_mesh(raw, 6);
+  expect_closed(closed.mesh);
+  EXPECT_EQ(closed.open_edges, 3u);
+  EXPECT_DOUBLE_EQ(volume(closed.mesh), 24);
+}
+
+TEST(CloseMesh, ACornerOnAnEdgeIsNoCrack) {
+  // Between points 0 and 1, where the side below has none.
+  RawMesh raw = cube();
+  raw.points.push_back({1.000001, 0, 0});
+  raw.faces[2] = {0, 8, 1, 5, 4};
+  ClosedMesh closed = close_mesh(raw, 6);
+  expect_closed(closed.mesh);
+  EXPECT_EQ(closed.open_edges, 0u);
+  EXPECT_EQ(closed.mesh.facets.size(), 6u);
+  EXPECT_NEAR(volume(closed.mesh), 24, 1e-4);
+  // Where the digits tell a gap there is one: a triangle between the three, as a fin.
+  raw.points[8].z = -0.01;
+  closed = close_mesh(raw, 6);
+  expect_closed(closed.mesh);
+  EXPECT_EQ(closed.open_edges, 3u);
+  EXPECT_DOUBLE_EQ(volume(closed.mesh), 24);
 }
 
 TEST(CloseMesh, OpenPartsAreLeftOut) {

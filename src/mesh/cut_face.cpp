@@ -1,6 +1,9 @@
 #include "mesh/cut_face.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "flat/triangulation.h"
 
 namespace whittle {
 namespace {
@@ -40,18 +43,11 @@ bool holds(Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
   return area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0;
 }
 
-}  // namespace
+using Triangles = std::vector<std::array<uint32_t, 3>>;
 
-void cut_face(std::span<const Vec3> points, std::span<const uint32_t> loop,
-              std::vector<std::array<uint32_t, 3>>& out) {
-  if (loop.size() < 3) return;
-  if (loop.size() == 3) {
-    out.push_back({loop[0], loop[1], loop[2]});
-    return;
-  }
-  // Ear clipping (Meisters 1975). The corner that is cut off is the best shaped one of those that
-  // are ears; where there is none, because the loop crosses itself, any.
-  std::vector<Corner> rest = flattened(points, loop);
+/// Ear clipping (Meisters 1975). The corner that is cut off is the best shaped one of those that
+/// are ears; where there is none, because the loop crosses itself, any.
+void clip_ears(std::vector<Corner> rest, Triangles& out) {
   while (rest.size() > 3) {
     const size_t n = rest.size();
     size_t best = 0;
@@ -71,16 +67,49 @@ void cut_face(std::span<const Vec3> points, std::span<const uint32_t> loop,
       if (!is_ear) continue;
       best = i;
       best_worth = worth;
-      // To look on would take the square of the corners each time.
-      constexpr double kWellShaped = 0.3;
-      constexpr size_t kManyCorners = 256;
-      if (worth > kWellShaped || n > kManyCorners) break;
     }
     out.push_back(
         {rest[(best + n - 1) % n].number, rest[best].number, rest[(best + 1) % n].number});
     rest.erase(rest.begin() + std::ptrdiff_t(best));
   }
   out.push_back({rest[0].number, rest[1].number, rest[2].number});
+}
+
+/// By a sweep. False if different corners are seen at one place, where it knows but one.
+bool sweep(const std::vector<Corner>& loop, Triangles& out) {
+  Polygons polygons{{Contour{}}};
+  for (const Corner& corner : loop) polygons.contours[0].push_back(corner.at);
+  const WeldedPolygons welded = weld(polygons);
+  constexpr uint32_t kNone = UINT32_MAX;
+  std::vector<uint32_t> number(welded.points.size(), kNone);
+  for (const Corner& corner : loop) {
+    const auto found = std::ranges::lower_bound(welded.points, corner.at, [](Vec2 a, Vec2 b) {
+      return a.x < b.x || (a.x == b.x && a.y < b.y);
+    });
+    uint32_t& own = number[size_t(found - welded.points.begin())];
+    if (own != kNone && own != corner.number) return false;
+    own = corner.number;
+  }
+  for (const auto& [a, b, c] : triangulate(welded))
+    out.push_back({number[a], number[b], number[c]});
+  return true;
+}
+
+}  // namespace
+
+void cut_face(std::span<const Vec3> points, std::span<const uint32_t> loop, Triangles& out) {
+  if (loop.size() < 3) return;
+  if (loop.size() == 3) {
+    out.push_back({loop[0], loop[1], loop[2]});
+    return;
+  }
+  // Clipping the best of all ears takes the third power of the corners.
+  constexpr size_t kFewCorners = 32;
+  std::vector<Corner> flat = flattened(points, loop);
+  if (loop.size() <= kFewCorners)
+    clip_ears(std::move(flat), out);
+  else if (!sweep(flat, out))
+    for (size_t i = 2; i < loop.size(); ++i) out.push_back({loop[0], loop[i - 1], loop[i]});
 }
 
 }  // namespace whittle

@@ -30,7 +30,8 @@ Result<Heights> read_text(std::string_view content, size_t most_values) {
     for (std::string_view word = words.word(); !word.empty(); word = words.word()) {
       if (row.empty() && word.starts_with('#')) break;
       const auto value = TextScanner::as_number<double>(word);
-      if (!value || !std::isfinite(*value)) return mesh_error("a height is not a number");
+      if (!value || !(std::fabs(*value) <= kFarthest))
+        return mesh_error("a height is not a number");
       row.push_back(*value);
       heights.lowest = std::min(heights.lowest, *value);
     }

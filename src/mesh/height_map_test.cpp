@@ -35,6 +35,7 @@ TEST(HeightMap, Text) {
   EXPECT_NEAR(volume(mesh), sum, 1e-12);
   EXPECT_FALSE(read_height_map("1 2\n3 x\n", {}, kMany));
   EXPECT_FALSE(read_height_map("1 nan\n3 4\n", {}, kMany));
+  EXPECT_FALSE(read_height_map("1 1e76\n3 4\n", {}, kMany));
   EXPECT_TRUE(read_height_map("1 2 3\n", {}, kMany)->triangles.empty());
   EXPECT_FALSE(read_height_map("1 2 3\n4 5 6\n", {}, 20));
   HeightMap centered;

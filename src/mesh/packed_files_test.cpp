@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "base/box.h"
+#include "base/xml_scanner.h"
 #include "mesh/close_mesh.h"
 #include "mesh/mesh_files.h"
-#include "base/xml_scanner.h"
 #include "mesh/zip_archive.h"
 #include "mesh/zip_for_test.h"
 

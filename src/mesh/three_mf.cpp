@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/affine.h"
+#include "base/xml_scanner.h"
 #include "mesh/formats.h"
 #include "mesh/text_scanner.h"
-#include "base/xml_scanner.h"
 #include "mesh/zip_archive.h"
 
 namespace whittle {

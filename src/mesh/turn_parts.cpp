@@ -15,12 +15,15 @@ double volume_of(const std::vector<Vec3>& points, const Corners& t, Vec3 origin)
 }
 
 /// The solid angle a triangle is seen at (van Oosterom and Strackee, The Solid Angle of a Plane
-/// Triangle, 1983).
+/// Triangle, 1983); none from a place on it, where only rounding says which side is seen.
 double solid_angle(const std::vector<Vec3>& points, const Corners& t, Vec3 p) {
   const Vec3 a = points[t[0]] - p, b = points[t[1]] - p, c = points[t[2]] - p;
-  const double la = length(a), lb = length(b), lc = length(c);
-  return 2 * std::atan2(dot(a, cross(b, c)),
-                        la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+  const double la = length(a), lb = length(b), lc = length(c), lengths = la * lb * lc;
+  const double sine = dot(a, cross(b, c)),
+               cosine = lengths + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+  constexpr double kOnIt = 1e-9;
+  if (cosine <= 0 && std::fabs(sine) <= kOnIt * lengths) return 0;
+  return 2 * std::atan2(sine, cosine);
 }
 
 /// A part that is closed.

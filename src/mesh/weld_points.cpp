@@ -21,9 +21,8 @@ uint64_t hash_of(const Cell& cell) {
 
 /// The cell of a coordinate. Without a tolerance equal numbers, and only these, have one cell.
 int64_t cell_of(double x, double scale) {
-  constexpr double kFar = 4e18;
   if (scale == 0) return std::bit_cast<int64_t>(x + 0.0);
-  return int64_t(std::floor(std::clamp(x * scale, -kFar, kFar)));
+  return int64_t(std::floor(x * scale));
 }
 
 }  // namespace
@@ -34,13 +33,21 @@ std::vector<uint32_t> weld_points(std::span<const Vec3> points, double tolerance
   std::vector<uint32_t> head(std::bit_ceil(points.size() + 1), kNone), next(points.size(), kNone);
   const size_t mask = head.size() - 1;
   // Cells four tolerances wide: what is near a point is mostly in its own cell.
-  const double scale = tolerance > 0 ? 1 / (4 * tolerance) : 0;
+  constexpr double kLeast = 1e-300;  // the inverse of less may be infinite
+  const double scale = tolerance > kLeast ? 1 / (4 * tolerance) : 0;
+  const auto has_cell = [&](Vec3 p) {
+    constexpr double kFar = 4e18;  // what a cell's number can be
+    const Vec3 at = abs(p) * scale;
+    return is_finite(p) && at.x < kFar && at.y < kFar && at.z < kFar;
+  };
   const auto is_near = [&](Vec3 a, Vec3 b) {
     return std::fabs(a.x - b.x) <= tolerance && std::fabs(a.y - b.y) <= tolerance &&
            std::fabs(a.z - b.z) <= tolerance;
   };
   for (uint32_t i = 0; i < points.size(); ++i) {
     const Vec3 p = points[i];
+    first[i] = i;
+    if (!has_cell(p)) continue;
     Cell low, high, own;
     for (int axis = 0; axis < 3; ++axis) {
       own[size_t(axis)] = cell_of(p[axis], scale);
@@ -54,8 +61,10 @@ std::vector<uint32_t> weld_points(std::span<const Vec3> points, double tolerance
         for (cell[2] = low[2]; cell[2] <= high[2]; ++cell[2])
           for (uint32_t k = head[hash_of(cell) & mask]; k != kNone; k = next[k])
             if (is_near(points[k], p)) found = std::min(found, k);
-    first[i] = found == kNone ? i : found;
-    if (found != kNone) continue;
+    if (found != kNone) {
+      first[i] = found;
+      continue;
+    }
     uint32_t& slot = head[hash_of(own) & mask];
     next[i] = slot;
     slot = i;

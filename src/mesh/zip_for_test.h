@@ -59,7 +59,7 @@ inline std::string make_zip(const std::vector<ZipFile>& files, bool zip64 = fals
     constexpr uint64_t kElsewhere = 0xffffffff;
     put_common(directory, zip64 ? kElsewhere : packed.size(),
                zip64 ? kElsewhere : file.bytes.size());
-    put(directory, zip64 ? 28 : 0, 2), put(directory, 0, 10);
+    put(directory, zip64 ? 28 : 0, 2), put(directory, 0, 2), put(directory, 0, 8);
     put(directory, zip64 ? kElsewhere : at, 4);
     directory += file.name;
     if (zip64) {

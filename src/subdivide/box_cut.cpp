@@ -8,17 +8,20 @@
 namespace whittle {
 namespace {
 
-/// A cut beside a box must be so much better than one in the middle: twice as good is the next one
-/// in the middle, too.
-constexpr double kMuchBetter = 1.25;
+/// A cut in the middle must be so much better than one beside a box: it may go through what is
+/// there, and then both parts have the same to do.
+constexpr double kMiddleBetter = 1.25;
 
 /// How far from a box it is cut, so that no surface lies in the cut: of the box, and at least so
 /// many margins.
 constexpr double kBesideShare = 1e-3, kBesideMargins = 4;
 
-/// Operands fill a cell if along every axis they are that far from their common middle, on the
-/// average, their own size included: a share of what it is where each is as large as the cell.
-constexpr double kFilled = 0.25;
+/// Operands fill a cell if along every axis they are that far from their common middle, their own
+/// size included: a share of what it is where each is as large as the cell.
+constexpr double kFilled = 0.5;
+
+/// So many operands, and no more than twice as many, are asked.
+constexpr size_t kAsked = 64;
 
 double half_area(Vec3 size) {
   return size.x * size.y + size.y * size.z + size.z * size.x;
@@ -26,29 +29,33 @@ double half_area(Vec3 size) {
 
 }  // namespace
 
+/// As far as some of the operands tell.
 bool BoxCutter::is_filled(std::span<const Token> formula, const Box& cell) const {
-  Vec3 sum, sum_of_halves;
+  const Vec3 middle = cell.center();
+  Vec3 sum, sum_of_squares, sum_of_halves;
   double count = 0;
-  const auto for_boxes = [&](auto&& visit) {
-    for (const Token token : formula) {
-      if (token.is_group()) continue;
-      const Box& outer = reach_of(scene_, token).box;
-      const Vec3 lo = max(outer.lo, cell.lo), hi = min(outer.hi, cell.hi);
-      const double literals =
-          token.kind() == TokenKind::kFace ? 1 : scene_.units[token.payload()].face_count;
-      visit((lo + hi) * 0.5, (hi - lo) * 0.5, literals);
+  const size_t step = 1 + formula.size() / kAsked;
+  for (size_t i = 0; i < formula.size(); i += step) {
+    const Token token = formula[i];
+    if (token.is_group()) continue;
+    const bool is_face = token.kind() == TokenKind::kFace;
+    const Unit& unit = scene_.units[is_face ? scene_.faces[token.payload()].unit : token.payload()];
+    const Vec3 lo = max(unit.outer.lo, cell.lo) - middle, hi = min(unit.outer.hi, cell.hi) - middle;
+    const double literals = is_face ? 1 : unit.face_count;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double twice = lo[axis] + hi[axis];
+      sum[axis] += literals * twice;
+      sum_of_squares[axis] += literals * twice * twice;
+      sum_of_halves[axis] += literals * (hi[axis] - lo[axis]);
     }
-  };
-  for_boxes([&](Vec3 center, Vec3 half, double literals) {
-    sum += center * literals;
-    sum_of_halves += half * literals;
     count += literals;
-  });
-  const Vec3 middle = sum / count;
-  Vec3 away = sum_of_halves;
-  for_boxes([&](Vec3 center, Vec3, double literals) { away += abs(center - middle) * literals; });
-  const Vec3 enough = cell.size() * (0.5 * kFilled * count);
-  return away.x >= enough.x && away.y >= enough.y && away.z >= enough.z;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const double enough = kFilled * count * (cell.hi[axis] - cell.lo[axis]) - sum_of_halves[axis];
+    const double square = count * sum_of_squares[axis] - sum[axis] * sum[axis];
+    if (enough > 0 && square < enough * enough) return false;
+  }
+  return true;
 }
 
 /// Fills active_. A literal says something in its own box and in those of all groups around it.
@@ -132,7 +139,7 @@ std::optional<Cut> BoxCutter::cut(std::span<const Token> formula, const Box& cel
   if (is_filled(formula, cell)) return std::nullopt;
   find_active(formula, cell);
   sort_bounds(middle.axis);
-  double least = kMuchBetter * cost(cell, middle);
+  double least = kMiddleBetter * cost(cell, middle);
   std::optional<Cut> best;
   for (int axis = 0; axis < 3; ++axis) {
     const double beside = kBesideMargins * margin_;

@@ -22,8 +22,8 @@ class BoxCutter {
   BoxCutter(const Scene& scene, double margin) : scene_(scene), margin_(margin) {}
 
   /// The cut next to a box of an operand with which rays through the cell meet the fewest literals,
-  /// as far as boxes tell, if these are far fewer than with `middle`. None where the operands fill
-  /// the cell, which is found out in no time; else that takes n log n for n operands.
+  /// as far as boxes tell, unless `middle` is much better. None where the operands fill the cell,
+  /// which is found out in no time; the rest takes n log n for n operands.
   std::optional<Cut> cut(std::span<const Token> formula, const Box& cell, Cut middle);
 
  private:

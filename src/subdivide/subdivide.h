@@ -16,7 +16,7 @@ namespace whittle {
 
 /// Cells are cut in the middle, and these say along which axis.
 enum class SplitRule {
-  kLongest,  ///< the longest edge
+  kLongest,  ///< the longest edge; a cell that is mostly empty is cut beside what is in it
   kXyz,      ///< X, Y, Z in turn: the paper's
   kOctree,   ///< all three at once, as octrees do; the formula is simplified for the eight parts
              ///< only
@@ -41,14 +41,16 @@ inline constexpr uint32_t kAutoLeafSize = 0;
 /// Whether a cell is small, by its box.
 using IsSmall = std::function<bool(const Box&)>;
 
-/// Far above the rounding of a ray's entry and exit in double (1e-15), far below anything seen. It
-/// puts a surface that lies exactly on a split into both cells, so no ray slips between them.
+/// Far above the rounding of a ray's entry and exit in double (1e-15), far below anything seen, be
+/// it small in a large model. It puts a surface that lies exactly on a split into both cells, so no
+/// ray slips between them.
 inline constexpr double kCellMargin = 1e-12;
 
 struct SubdivideSettings {
   /// Half-spaces (or primitives) that a leaf may hold, or kAutoLeafSize.
   uint32_t leaf_size = kAutoLeafSize;
-  /// kAutoLeafSize: how many rays there will be, about.
+  /// kAutoLeafSize: how many rays there will be, about, if all of the region is seen as closely as
+  /// what is to be looked at.
   double rays = 512.0 * 512;
   SplitRule split = SplitRule::kLongest;
   LeafRule leaf = LeafRule::kHalfSpaces;
@@ -59,6 +61,7 @@ struct SubdivideSettings {
   /// or with kAutoLeafSize.
   double least_use = 1.0 / 4096;
   /// No cell's edge gets smaller than this share of the region's longest edge, whatever is in it.
+  /// Not used with kAutoLeafSize.
   double smallest_edge = 1.0 / 16384;
   /// If set: a cell (world coordinates) for which this holds is not split any more. The paper's
   /// pixel threshold makes cells depend on the camera; threshold.h moves it. Pure.

@@ -204,7 +204,7 @@ Status Renderer::State::look_from(const Camera& camera) {
 /// Cells that were made for a whole model are too large for a small part of it that fills the
 /// picture: leaves in which few rays were expected have long formulas.
 Status Renderer::State::look_closely(const Camera& camera) {
-  // Four times as many rays make leaves that are hardly faster (decision 0014).
+  // For fewer times as many rays leaves are hardly faster (decision 0014) than what is there.
   constexpr double kMany = 4;
   if (!cells || settings.subdivide.leaf_size != kAutoLeafSize) return Done{};
   const Box region{scene.region.lo + scene.origin, scene.region.hi + scene.origin};

@@ -64,10 +64,11 @@ struct StageTimes {
 /// One model and what is made of it. The steps are called in their order; each can be repeated, and
 /// makes its result anew. The model must outlive the renderer.
 ///
-/// What prepare() makes serves pictures from any camera. With a pixel threshold the cells depend on
-/// the camera: where it has moved, trace() and shade() first refine the cells that are no longer
-/// small and leave out those that became it (subdivide/threshold.h). The pictures are those of a
-/// renderer made afresh.
+/// What prepare() makes serves pictures from any camera; for one that looks closely at a part,
+/// prepare(), trace() and shade() make finer cells first (docs/decisions/0033-long-parts.md). With
+/// a pixel threshold the cells depend on the camera: where it has moved, trace() and shade() first
+/// refine the cells that are no longer small and leave out those that became it
+/// (subdivide/threshold.h). The pictures are those of a renderer made afresh.
 class Renderer {
  public:
   /// Fails if the model cannot be lowered, or the chosen backend has no device to work on. kAuto

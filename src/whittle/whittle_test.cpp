@@ -60,7 +60,7 @@ TEST(Solid, HasNoBoundsIfEmptyOrUnbounded) {
 }
 
 TEST(Solid, IsNotCompleteIfSomethingIsNotSupported) {
-  const Solid solid = Solid::parse("\nhull() cube(1);", "part");
+  const Solid solid = Solid::parse("\nroof() square(1);", "part");
   EXPECT_FALSE(solid.is_complete());
   ASSERT_EQ(solid.warnings().size(), 1u);
   EXPECT_EQ(solid.warnings()[0].find("part:2:1: warning: "), 0u);

@@ -81,17 +81,17 @@ TEST_F(Info, UnboundedAndEmptySolidsAreCalledSo) {
 }
 
 TEST_F(Info, WarningsAreInTheJsonAndElseOnStandardError) {
-  const RunSettings hull{.in = "hull() { cube(1); }"};
+  const RunSettings roof{.in = "roof() { square(1); }"};
   const std::string warning =
-      "<stdin>:1:1: warning: 'hull' is not supported yet, shown as the union of its children";
-  const Ended text = good({"info", "-"}, hull);
+      "<stdin>:1:1: warning: roofs are not supported; nothing is shown for it";
+  const Ended text = good({"info", "-"}, roof);
   EXPECT_EQ(text.err, warning + "\n");
   EXPECT_NE(text.out.find("warnings     1, and not everything is supported\n"), std::string::npos);
-  const Ended json = good({"info", "-", "--json"}, hull);
+  const Ended json = good({"info", "-", "--json"}, roof);
   EXPECT_EQ(json.err, "");
   EXPECT_EQ(Json::parse(json.out)["warnings"], Json({warning}));
   EXPECT_EQ(Json::parse(json.out)["supported"], false);
-  EXPECT_EQ(run({"info", "-", "--strict"}, hull).exit_code, 1);
+  EXPECT_EQ(run({"info", "-", "--strict"}, roof).exit_code, 1);
 }
 
 TEST_F(Cells, TheyAreDrawnOverTheRendering) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <tuple>
 
@@ -164,29 +165,6 @@ TEST_F(Render, BothSpellingsOfAnOptionAreOne) {
   EXPECT_TRUE(read("a.png") == read("b.png"));
 }
 
-TEST_F(Render, OpenscadsOtherOptionsAreTakenAndThoseThatMightBeMissedAreNamed) {
-  good({"part.csg", "-o", "a.png", "--imgsize", "32,32"});
-  const Ended silent = good({"--render", "part.csg", "-o", "b.png", "--imgsize", "32,32",
-                             "--preview=throwntogether", "--csglimit", "5", "--enable=manifold",
-                             "--debug", "all", "--check-parameters", "true"});
-  EXPECT_EQ(silent.err, "");
-  EXPECT_TRUE(read("a.png") == read("b.png"));
-  const std::vector<std::string> missed = {
-      "part.csg", "-o",        "b.png",  "--imgsize", "32,32",          "-D",
-      "x=1",      "-Dy=[1]",   "--view", "axes",      "--hardwarnings", "-p",
-      "set.json", "-P",        "set",    "-d",        "deps",           "-m",
-      "make",     "--animate", "3",      "--backend", "Manifold"};
-  const Ended noted = good(missed);
-  EXPECT_EQ(noted.err.find("whittle: note: without effect here: "), 0u) << noted.err;
-  EXPECT_EQ(std::ranges::count(noted.err, '\n'), 1) << noted.err;
-  for (const char* name : {"-D", "--view", "--hardwarnings", "-p", "-P", "-d", "-m", "--animate",
-                           "--backend Manifold"})
-    EXPECT_NE(noted.err.find(name), std::string::npos) << name;
-  std::vector<std::string> quiet = missed;
-  quiet.emplace_back("--quiet");
-  EXPECT_EQ(good(quiet).err, "");
-}
-
 TEST_F(Render, StyleOpenscadHasOpenscadsVeryColours) {
   write("cube.csg", "cube(10);");
   good({"cube.csg", "-o", "x.png", "--style", "openscad"});
@@ -247,24 +225,44 @@ TEST_F(Render, TheBackgroundIsTheSchemes) {
   EXPECT_EQ(picture.at(0, 0)[0] + picture.at(0, 0)[1] + picture.at(0, 0)[2], 0);
 }
 
-TEST_F(Render, WhatIsNotSupportedIsAWarningOrWithStrictAnError) {
-  write("hull.csg", "cube(1);\nhull() {\n  cube(10);\n}\n");
-  const Ended warned = good({"hull.csg", "-o", "x.png", "--imgsize", "16,16"});
-  EXPECT_EQ(warned.err,
-            "hull.csg:2:1: warning: 'hull' is not supported yet, shown as the union of its "
-            "children\n");
-  EXPECT_EQ(good({"hull.csg", "-o", "x.png", "--imgsize", "16,16", "-q"}).err, "");
-  const Ended strict = run({"hull.csg", "-o", "strict.png", "--strict", "-q"});
+TEST_F(Render, WhatIsNotSupportedIsShownWithoutButIsNoSuccess) {
+  write("roof.csg", "cube(1);\nroof() {\n  square(10);\n}\n");
+  const std::vector<std::string> command = {"roof.csg", "-o", "x.png", "--imgsize", "16,16"};
+  const auto with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    std::filesystem::remove(path("x.png"));
+    return run(arguments);
+  };
+  const std::string warning =
+      "roof.csg:2:1: warning: roofs are not supported; nothing is shown for it\n";
+  const std::string refusal =
+      "roof.csg:2:1: error: roofs are not supported; so the picture is not what was meant "
+      "(--lenient accepts that)\n";
+  const Ended plain = with({});
+  EXPECT_EQ(plain.exit_code, 1);
+  EXPECT_EQ(plain.err, warning + refusal);
+  EXPECT_EQ(png("x.png").width, 16) << "the picture is written";
+  const Ended quiet = with({"-q"});
+  EXPECT_EQ(quiet.exit_code, 1);
+  EXPECT_EQ(quiet.err, refusal);
+  const Ended lenient = with({"--lenient"});
+  EXPECT_EQ(lenient.exit_code, 0);
+  EXPECT_EQ(lenient.err, warning);
+  EXPECT_EQ(with({"--lenient", "-q"}).err, "");
+  const Ended strict = with({"--strict", "-q"});
   EXPECT_EQ(strict.exit_code, 1);
-  EXPECT_EQ(strict.err, "hull.csg:2:1: error: 'hull' is not supported yet (--strict)\n");
-  EXPECT_EQ(files(), (std::vector<std::string>{"hull.csg", "part.csg", "x.png"}));
+  EXPECT_EQ(strict.err, "roof.csg:2:1: error: roofs are not supported (--strict)\n");
+  EXPECT_EQ(files(), (std::vector<std::string>{"part.csg", "roof.csg"}));
+  EXPECT_EQ(run({"cells", "roof.csg", "-o", "x.png", "-q", "--imgsize", "16,16"}).err, refusal);
 }
 
 TEST_F(Render, StrictNamesWhatIsNotSupportedWhateverOtherWarningsSay) {
-  write("fill.csg", "color(\"not supported\") cube(1);\ncube(1, 1, 1);\n  fill();\nhull();\n");
-  const Ended strict = run({"fill.csg", "-o", "x.png", "--strict"});
+  write("roof.csg",
+        "color(\"not supported\") cube(1);\ncube(1, 1, 1);\n  roof() square(1);\nroof();\n");
+  const Ended strict = run({"roof.csg", "-o", "x.png", "--strict"});
   EXPECT_EQ(strict.exit_code, 1);
-  EXPECT_EQ(strict.err, "fill.csg:3:3: error: 'fill' is not supported yet (--strict)\n");
+  EXPECT_EQ(strict.err, "roof.csg:3:3: error: roofs are not supported (--strict)\n");
 }
 
 TEST_F(Render, MistakesInTheFileHaveTheirPlace) {
@@ -277,6 +275,20 @@ TEST_F(Render, MistakesInTheFileHaveTheirPlace) {
   EXPECT_EQ(absent.exit_code, 1);
   EXPECT_EQ(absent.err, "absent.csg: error: cannot be read: No such file or directory\n");
   EXPECT_EQ(files(), (std::vector<std::string>{"bad.csg", "part.csg"}));
+}
+
+TEST_F(Render, ACameraThatSeesNothingIsAWarning) {
+  for (const char* camera : {"0,0,100,0,0,200", "0,0,-50,0,0,-50"}) {
+    const Ended done = good({"part.csg", "-o", "x.png", "--imgsize", "8,8", "--camera", camera});
+    EXPECT_EQ(done.err, "part.csg: warning: nothing is in view\n");
+  }
+  EXPECT_EQ(good({"part.csg", "-o", "x.png", "-q", "--camera", "0,0,99,0,0,100"}).err, "");
+}
+
+TEST_F(Render, WhatIsCutAwayToTheLastBitIsAnEmptySolid) {
+  write("nothing.csg", "difference() { cube(1); cube(2); }");
+  const Ended done = good({"nothing.csg", "-o", "x.png", "--imgsize", "8,8"});
+  EXPECT_EQ(done.err, "nothing.csg: warning: the solid is empty\n");
 }
 
 TEST_F(Render, AnEmptySolidIsABackgroundAndAWarning) {

@@ -61,10 +61,10 @@ TEST_F(Usage, WithoutAnOutputItSaysThatThereIsNoWindow) {
 }
 
 TEST_F(Usage, TheEndingOfTheOutputMustBeKnown) {
-  const Ended unknown = run({"part.csg", "-o", "x.stl"});
+  const Ended unknown = run({"part.csg", "-o", "x.jpg"});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_EQ(unknown.err,
-            "whittle: 'x.stl' does not end in .png or .exr, so its format is not known\n");
+            "whittle: 'x.jpg' does not end in .png or .exr, so its format is not known\n");
   const Ended standard = run({"part.csg", "-o", "-"});
   EXPECT_EQ(standard.exit_code, 2);
   EXPECT_EQ(standard.err, "whittle: -o - (standard output) needs --export-format png or exr\n");
@@ -109,15 +109,14 @@ TEST_F(Usage, TheInputIsNoOutput) {
 
 TEST_F(Usage, NamesInMessagesCommandNoTerminal) {
   const std::string odd = "a\nb\x1b[31m.csg", shown = "a?b?[31m.csg";
-  write(odd, "hull() cube(1);\n");
-  EXPECT_EQ(
-      run({odd, "-o", "x.png", "--imgsize", "8,8"}).err,
-      shown + ":1:1: warning: 'hull' is not supported yet, shown as the union of its children\n");
+  write(odd, "cube(1); roof() square(1);\n");
+  EXPECT_EQ(run({odd, "-o", "x.png", "--imgsize", "8,8", "--lenient"}).err,
+            shown + ":1:10: warning: roofs are not supported; nothing is shown for it\n");
   EXPECT_EQ(run({odd, "-o", "x.png", "--strict"}).err,
-            shown + ":1:1: error: 'hull' is not supported yet (--strict)\n");
-  EXPECT_EQ(run({odd, "-o", odd}).err, "whittle: '" + shown +
-                                           "' does not end in .png or .exr, so its format is not "
-                                           "known\n");
+            shown + ":1:10: error: roofs are not supported (--strict)\n");
+  EXPECT_EQ(
+      run({odd, "-o", odd}).err,
+      "whittle: '" + shown + "' asks for .csg, but whittle makes pictures only, .png or .exr\n");
   EXPECT_EQ(run({"part.csg", "-o", "b\x1b/x.png"}).err,
             "whittle: cannot write 'b?/x.png': No such file or directory\n");
   EXPECT_EQ(run({"part.csg", "-o", "x.png", "--style", "\n\x1b"}).err,
@@ -129,9 +128,11 @@ TEST_F(Usage, NamesInMessagesCommandNoTerminal) {
 }
 
 TEST_F(Usage, AnOptionWithoutItsValueIsNamed) {
-  for (const std::string option : {"--view", "-D", "--csglimit", "--summary-file"}) {
+  for (const std::string option : {"--view", "--csglimit", "--debug"}) {
     expect_refused({option}, option + ": 1 required VALUE missing");
   }
+  expect_refused({"-D"}, "-D: 1 required NAME=VALUE missing");
+  expect_refused({"--summary-file"}, "--summary-file: 1 required FILE missing");
   expect_refused({"--imgsize"}, "--imgsize: 1 required W,H missing");
 }
 

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -80,10 +81,13 @@ class InterruptionOfOpenscad : public Interruption {
   }
 
   /// Runs on a program until there are that many ids, then ends the run; the processes.
-  std::vector<pid_t> run_until_ids(size_t count, int signal) {
+  std::vector<pid_t> run_until_ids(size_t count, int signal,
+                                   const std::vector<std::string>& more = {}) {
     fs::remove(path("ids"));
     std::vector<pid_t> ids;
-    const Ended done = run_and_signal({"part.scad", "-o", "x.png"}, signal, [&] {
+    std::vector<std::string> command{"part.scad", "-o", "x.png"};
+    command.insert(command.end(), more.begin(), more.end());
+    const Ended done = run_and_signal(command, signal, [&] {
       while (ids.size() < count) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
         ids.clear();
@@ -115,6 +119,15 @@ TEST_F(InterruptionOfOpenscad, EndsItAndAllThatItHasStarted) {
   install_openscad("sleep 1000 &\necho $! $$ >$ids\nwait\n");
   for (const int signal : kSignals) {
     expect_gone(run_until_ids(2, signal));
+    EXPECT_TRUE(fs::is_empty(path("tmp")));
+  }
+}
+
+TEST_F(InterruptionOfOpenscad, EndsAllThatEvaluateFrames) {
+  install_openscad("echo $$ >>$ids\nexec sleep 1000\n");
+  const size_t at_a_time = std::clamp<size_t>(std::thread::hardware_concurrency(), 1, 8);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    expect_gone(run_until_ids(at_a_time, signal, {"--animate", "20"}));
     EXPECT_TRUE(fs::is_empty(path("tmp")));
   }
 }

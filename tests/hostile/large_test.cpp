@@ -39,16 +39,22 @@ const Large kFiles[] = {
     {"three million levels without", "", "union() ", "cube(1);", 1,
      ":1:8000009: error: statements are nested deeper than the limit of 1000000; --limit depth=N "
      "raises it\n"},
-    {"one string", "text(\"", "a", "\");", 0,
-     ":1:1: warning: 'text' is not supported yet, nothing is shown for it\nFILE: warning: the "
-     "solid is empty\n",
+    {"one string", "text(\"", "a", "\");", 1,
+     ":1:1: error: flat shapes and hulls up to this one are computed from 20000000000 corners, "
+     "more "
+     "than the limit of 63000000; --limit facets=N raises it\n",
      kLarge},
     {"one string without an end", "text(\"", "a", "", 1,
      ":1:6: error: the string is not closed: expected '\"' before the end of the file\n"},
     {"escaped quotes", "text(\"", "\\\"", "", 1,
      ":1:6: error: the string is not closed: expected '\"' before the end of the file\n"},
-    {"digits", "cube(", "1", ");", 0, ": warning: the solid is empty\n", kLarge},
-    {"hexadecimal digits", "cube(0x", "f", ");", 0, ": warning: the solid is empty\n"},
+    {"digits", "cube(", "1", ");", 0,
+     ":1:1: warning: cube: a size is not finite; the shape is empty\nFILE: warning: the solid is "
+     "empty\n",
+     kLarge},
+    {"hexadecimal digits", "cube(0x", "f", ");", 0,
+     ":1:1: warning: cube: a size is not finite; the shape is empty\nFILE: warning: the solid is "
+     "empty\n"},
     {"digits behind the point", "sphere(.", "0", "1);", 0, ": warning: the solid is empty\n"},
     {"exponent", "sphere(1e-", "9", ");", 0, ": warning: the solid is empty\n"},
     {"signs", "cube(", "-", "1);", 0, ""},
