@@ -60,8 +60,8 @@ TEST_P(CoincidentTurned, Oracle) {
 
 std::vector<CoincidentScene> scenes() {
   std::vector<CoincidentScene> all;
-  for (const auto& chapter : {flush_scenes, abutting_scenes, curved_scenes, facet_scenes,
-                              algebra_scenes, tolerance_scenes, menger_scenes})
+  for (const auto& chapter : {flush_scenes, abutting_scenes, body_scenes, curved_scenes,
+                              facet_scenes, algebra_scenes, tolerance_scenes, menger_scenes})
     for (CoincidentScene& scene : chapter()) all.push_back(std::move(scene));
   return all;
 }

@@ -73,6 +73,7 @@ inline void PrintTo(const CoincidentScene& scene, std::ostream* out) {
 // The chapters of the suite, a file each.
 std::vector<CoincidentScene> flush_scenes();      ///< pockets, bores and slots
 std::vector<CoincidentScene> abutting_scenes();   ///< parts side by side, and inside one another
+std::vector<CoincidentScene> body_scenes();       ///< extrusions, revolutions, hulls, meshes
 std::vector<CoincidentScene> curved_scenes();     ///< curved walls that are shared
 std::vector<CoincidentScene> facet_scenes();      ///< polyhedra, tessellated curves, half-spaces
 std::vector<CoincidentScene> algebra_scenes();    ///< laws of sets

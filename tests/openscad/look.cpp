@@ -42,8 +42,8 @@ std::string openscad(const std::string& home) {
 void look_at_ours(const std::string& file, const std::string& options, const TestFolder& folder,
                   Look& look) {
   const std::string log = folder / "log", ours = folder / "ours.png", facts = folder / "facts.exr";
-  ASSERT_TRUE(run("'" WHITTLE_PROGRAM "' -q --lenient --style openscad -o '" + ours + "' -o '" + facts +
-                      "' " + options + " '" + file + "'",
+  ASSERT_TRUE(run("'" WHITTLE_PROGRAM "' -q --lenient --style openscad -o '" + ours + "' -o '" +
+                      facts + "' " + options + " '" + file + "'",
                   log));
   Result<Picture> picture = read_png(ours);
   Result<Frame> frame = read_exr(facts);

@@ -20,6 +20,7 @@ namespace {
 
 struct Case {
   std::string name;
+  std::string pixels;    ///< a side
   std::string expected;  ///< picture, empty or alone: see manifest.txt
 };
 
@@ -38,8 +39,7 @@ std::vector<Case> manifest() {
     if (line.empty() || line[0] == '#') continue;
     std::istringstream words(line);
     Case next;
-    std::string seconds;
-    words >> next.name >> seconds >> next.expected;
+    words >> next.name >> next.pixels >> next.expected;
     cases.push_back(next);
   }
   return cases;
@@ -62,13 +62,14 @@ class Cases : public testing::TestWithParam<Group> {};
 TEST_P(Cases, LookAsInOpenscad) {
   for (const Case& one : GetParam().cases) {
     const std::string file = WHITTLE_CASES "/" + one.name + ".csg";
+    const std::string options = "--imgsize=" + one.pixels + "," + one.pixels;
     if (one.expected == "picture") {
-      expect_the_same(file, "--imgsize=200,200");
+      expect_the_same(file, options);
       continue;
     }
     SCOPED_TRACE(file);
     Look look;
-    look_at_ours(file, "--imgsize=200,200", look);
+    look_at_ours(file, options, look);
     if (one.expected == "empty") {
       EXPECT_EQ(hits(look.facts), 0u);
       expect_empty_to_openscad(file);
@@ -79,7 +80,7 @@ TEST_P(Cases, LookAsInOpenscad) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Openscad, Cases, testing::ValuesIn(groups()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& group) { return group.param.name; });
 
 TEST(CasesManifest, NamesEveryFileOnce) {
   std::set<std::string> named;
