@@ -56,7 +56,8 @@ TEST(PictureModel, AllKindsComeUp) {
     ++views[input.view], ++leaf_sizes[input.leaf_size];
     nearly += input.uses_nearly;
   }
-  EXPECT_EQ(shapes.size(), std::variant_size_v<Shape>);
+  // All but meshes, which have a fuzzer and agreement tests of their own.
+  EXPECT_EQ(shapes.size(), std::variant_size_v<Shape> - 1);
   for (const NodeKind kind : {NodeKind::kUnion, NodeKind::kDifference, NodeKind::kIntersection,
                               NodeKind::kTransform, NodeKind::kPrimitive})
     EXPECT_GT(nodes[kind], 100) << int(kind);
