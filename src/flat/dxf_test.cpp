@@ -4,20 +4,13 @@
 #include <vector>
 
 #include "flat/outlines.h"
+#include "flat/polygons_for_test.h"
 
 namespace whittle {
 namespace {
 
 std::string entities(const std::string& text) {
   return "0\nSECTION\n2\nENTITIES\n" + text + "0\nENDSEC\n0\nEOF\n";
-}
-
-double area(const Polygons& polygons) {
-  double sum = 0;
-  for (const Contour& contour : polygons.contours)
-    for (size_t i = 0; i < contour.size(); ++i)
-      sum += cross(contour[i], contour[(i + 1) % contour.size()]) / 2;
-  return sum;
 }
 
 Polygons read(const std::string& content, const Import& how = {}) {
