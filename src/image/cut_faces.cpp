@@ -1,6 +1,5 @@
 #include "image/cut_faces.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "lower/evaluate.h"

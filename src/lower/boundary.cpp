@@ -168,22 +168,14 @@ int Boundary::crosses_above(const Triangle& triangle, Vec3 p) const {
 
 int Boundary::winding(Vec3 p) const {
   int sum = 0;
-  std::array<uint32_t, kMostDepth> open;
-  size_t count = 0;
-  open[count++] = 0;
-  while (count > 0) {
-    const Node& node = nodes_[open[--count]];
-    if (p.x < double(node.lo[0]) || p.x > double(node.hi[0]) || p.y < double(node.lo[1]) ||
-        p.y > double(node.hi[1]) || p.z > double(node.hi[2]))
-      continue;
-    if (node.count == 0) {
-      open[count++] = node.first + 1;
-      open[count++] = node.first;
-      continue;
-    }
-    for (uint32_t i = node.first; i < node.first + node.count; ++i)
-      sum += crosses_above(triangles_[i], p);
-  }
+  const auto is_beside = [&](const Node& node) {
+    return p.x < double(node.lo[0]) || p.x > double(node.hi[0]) || p.y < double(node.lo[1]) ||
+           p.y > double(node.hi[1]) || p.z > double(node.hi[2]);
+  };
+  visit_leaves(is_beside, [&](uint32_t i) {
+    sum += crosses_above(triangles_[i], p);
+    return true;
+  });
   return sum;
 }
 

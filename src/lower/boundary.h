@@ -67,6 +67,10 @@ class Boundary {
   static constexpr size_t kMostDepth = 96;
 
   void build();
+  /// Calls visit(index) for the triangles of all leaves, but for what lies under a node with
+  /// is_beside(node), until it returns false.
+  template <class IsBeside, class Visit>
+  void visit_leaves(const IsBeside& is_beside, const Visit& visit) const;
   bool reaches(const Triangle& triangle, Vec3 center, Vec3 half) const;
   int crosses_above(const Triangle& triangle, Vec3 p) const;
 
@@ -76,25 +80,33 @@ class Boundary {
   double slack_ = 0, rounding_ = 0;
 };
 
-template <class Visit>
-void Boundary::visit_in(Vec3 center, Vec3 half, const Visit& visit) const {
-  const Vec3 lo = center - half, hi = center + half;
+template <class IsBeside, class Visit>
+void Boundary::visit_leaves(const IsBeside& is_beside, const Visit& visit) const {
   std::array<uint32_t, kMostDepth> open;
   size_t count = 0;
   open[count++] = 0;
   while (count > 0) {
     const Node& node = nodes_[open[--count]];
-    if (hi.x < double(node.lo[0]) || lo.x > double(node.hi[0]) || hi.y < double(node.lo[1]) ||
-        lo.y > double(node.hi[1]) || hi.z < double(node.lo[2]) || lo.z > double(node.hi[2]))
-      continue;
+    if (is_beside(node)) continue;
     if (node.count == 0) {
       open[count++] = node.first + 1;
       open[count++] = node.first;
       continue;
     }
     for (uint32_t i = node.first; i < node.first + node.count; ++i)
-      if (reaches(triangles_[i], center, half) && !visit(i)) return;
+      if (!visit(i)) return;
   }
+}
+
+template <class Visit>
+void Boundary::visit_in(Vec3 center, Vec3 half, const Visit& visit) const {
+  const Vec3 lo = center - half, hi = center + half;
+  const auto is_beside = [&](const Node& node) {
+    return hi.x < double(node.lo[0]) || lo.x > double(node.hi[0]) || hi.y < double(node.lo[1]) ||
+           lo.y > double(node.hi[1]) || hi.z < double(node.lo[2]) || lo.z > double(node.hi[2]);
+  };
+  visit_leaves(is_beside,
+               [&](uint32_t i) { return !reaches(triangles_[i], center, half) || visit(i); });
 }
 
 }  // namespace whittle

@@ -60,6 +60,20 @@ double reach(std::span<const Vec3> points, Vec3 middle, const Affine& map) {
   return std::sqrt(longest);
 }
 
+/// A plate's thickness, or about a third of a round body's: twice its volume over its area.
+double mean_thickness(const TriangleMesh& mesh, const Affine& map) {
+  double volume = 0, area = 0;
+  const Vec3 origin = map.point(mesh.points.empty() ? Vec3{} : mesh.points[0]);
+  for (const TriangleMesh::Triangle& t : mesh.triangles) {
+    const Vec3 a = map.point(mesh.points[t.corners[0]]) - origin,
+               b = map.point(mesh.points[t.corners[1]]) - origin,
+               c = map.point(mesh.points[t.corners[2]]) - origin;
+    volume += dot(a, cross(b, c)) / 6;
+    area += length(cross(b - a, c - a)) / 2;
+  }
+  return area > 0 ? 2 * std::fabs(volume) / area : 0;
+}
+
 }  // namespace
 
 std::vector<Vec3> outline(const Shape& shape) {
@@ -78,20 +92,6 @@ Extent flat_extent(std::span<const Vec3> outline, std::span<const Plane> planes,
     nearest = std::min(nearest,
                        (plane.d - dot(plane.n, middle)) / length(back.transposed_vector(plane.n)));
   return {map.point(middle), reach(outline, middle, map), 2 * std::max(0.0, nearest)};
-}
-
-/// A plate's thickness, or about a third of a round body's: twice its volume over its area.
-double mean_thickness(const TriangleMesh& mesh, const Affine& map) {
-  double volume = 0, area = 0;
-  const Vec3 origin = map.point(mesh.points.empty() ? Vec3{} : mesh.points[0]);
-  for (const TriangleMesh::Triangle& t : mesh.triangles) {
-    const Vec3 a = map.point(mesh.points[t.corners[0]]) - origin,
-               b = map.point(mesh.points[t.corners[1]]) - origin,
-               c = map.point(mesh.points[t.corners[2]]) - origin;
-    volume += dot(a, cross(b, c)) / 6;
-    area += length(cross(b - a, c - a)) / 2;
-  }
-  return area > 0 ? 2 * std::fabs(volume) / area : 0;
 }
 
 Extent mesh_extent(const TriangleMesh& mesh, const Affine& map) {
