@@ -150,8 +150,7 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
   const double edge = max_component(open.box.size()) / region_edge_;
   const Box world{open.box.lo + scene_.origin, open.box.hi + scene_.origin};
   const bool small = settings_.is_small && settings_.is_small(world);
-  static const double zoom = getenv("ZOOM") ? atof(getenv("ZOOM")) : 1;
-  const double rays = edge * edge * settings_.rays * zoom * zoom;
+  const double rays = edge * edge * settings_.rays;
   const bool is_auto = settings_.leaf_size == kAutoLeafSize;
   // At 512 x 512 rays this is the smallest edge that others have.
   constexpr double kFewestRays = 1.0 / 1024;
