@@ -3,34 +3,56 @@
 #include <algorithm>
 
 #include "subdivide/cell_probes.h"
+#include "subdivide/near_triangles.h"
 
 namespace whittle {
+namespace {
 
-uint32_t LocalBsp::count(const Unit& unit, const CellBox& cell) {
+/// The triangles that reach a cell that is larger by a margin.
+template <class Visit>
+void visit_in(const Boundary& boundary, const LocalBsp::Known& known, const CellBox& cell,
+              double margin, const Visit& visit) {
+  const Vec3 half = cell.half + Vec3{margin, margin, margin};
+  if (known)
+    boundary.visit_in(*known, cell.center, half, visit);
+  else
+    boundary.visit_in(cell.center, half, visit);
+}
+
+}  // namespace
+
+uint32_t LocalBsp::count(const Unit& unit, const CellBox& cell, const Known& known) {
   constexpr uint32_t kMostTriangles = 64;
   const Boundary& boundary = scene_.boundaries[unit.boundary];
-  const double slack = boundary.slack();
   counted_.clear();
-  uint32_t triangles = 0;
-  bool too_many = false;
-  boundary.visit_in(cell.center, cell.half + Vec3{slack, slack, slack}, [&](uint32_t i) {
-    const uint32_t number = scene_.faces[boundary.triangles()[i].face].literal >> 1;
-    if (std::find(counted_.begin(), counted_.end(), number) == counted_.end())
-      counted_.push_back(number);
-    too_many = ++triangles > kMostTriangles || counted_.size() > kMostCounted;
-    return !too_many;
-  });
-  return too_many ? kTooMany : uint32_t(counted_.size());
+  triangles_.clear();
+  bool is_over = false;
+  const auto take = [&](uint32_t i) {
+    triangles_.push_back(i);
+    if (counted_.size() <= kMostCounted) {
+      const uint32_t number = scene_.faces[boundary.triangles()[i].face].literal >> 1;
+      if (std::find(counted_.begin(), counted_.end(), number) == counted_.end())
+        counted_.push_back(number);
+    }
+    is_over = triangles_.size() > kMostTriangles ||
+              (counted_.size() > kMostCounted && triangles_.size() > NearTriangles::kMostListed);
+    return !is_over;
+  };
+  visit_in(boundary, known, cell, boundary.slack(), take);
+  listed_ = std::nullopt;
+  if (triangles_.size() <= NearTriangles::kMostListed) listed_ = triangles_;
+  return is_over || counted_.size() > kMostCounted ? kTooMany : uint32_t(counted_.size());
 }
 
 bool LocalBsp::is_inside(const Unit& unit, const CellBox& cell) const {
   return scene_.boundaries[unit.boundary].winding(cell.center + cell_probe(0, cell.half)) != 0;
 }
 
-std::span<const Token> LocalBsp::formula(const Unit& unit, const CellBox& cell, bool negated) {
+std::span<const Token> LocalBsp::formula(const Unit& unit, const CellBox& cell, bool negated,
+                                         const Known& known) {
   const Boundary& boundary = scene_.boundaries[unit.boundary];
   polygons_.collect(scene_, boundary, cell,
-                    [&](const auto& take) { boundary.visit_in(cell.center, cell.half, take); });
+                    [&](const auto& take) { visit_in(boundary, known, cell, 0, take); });
   if (polygons_.polygons.empty()) {
     const bool value = is_inside(unit, cell) != negated;
     constant_.assign(1, Token::make(value ? TokenKind::kAnd : TokenKind::kOr, 1));

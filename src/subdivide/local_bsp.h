@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace whittle {
 /// Used by one thread at a time; its memory serves all cells.
 class LocalBsp {
  public:
+  /// Indices into Boundary::triangles().
+  using Known = std::optional<std::span<const uint32_t>>;
+
   explicit LocalBsp(const Scene& scene) : scene_(scene) {}
 
   /// More half-spaces than this are not counted.
@@ -23,14 +27,19 @@ class LocalBsp {
 
   /// How many half-spaces the triangles in a cell lie on; kTooMany for more than kMostCounted. With
   /// 0 the cell is inside or outside as a whole: is_inside().
-  uint32_t count(const Unit& unit, const CellBox& cell);
+  ///
+  /// `known`: triangles, among which are all that reach the cell. Those that do are in listed()
+  /// then, if there are few.
+  uint32_t count(const Unit& unit, const CellBox& cell, const Known& known = std::nullopt);
+  Known listed() const { return listed_; }
 
   /// Of a cell in which there is no triangle.
   bool is_inside(const Unit& unit, const CellBox& cell) const;
 
   /// The formula in the cell: an operand, whose groups have no passes among them. An empty group if
   /// it is constant there. What it refers to is overwritten by the next call.
-  std::span<const Token> formula(const Unit& unit, const CellBox& cell, bool negated);
+  std::span<const Token> formula(const Unit& unit, const CellBox& cell, bool negated,
+                                 const Known& known = std::nullopt);
   /// Of that formula: how many operands its outermost group has.
   uint32_t operands() const { return formula_.operands(); }
 
@@ -41,7 +50,8 @@ class LocalBsp {
   PartWindings windings_;
   BspFormula formula_;
   Formula constant_;
-  std::vector<uint32_t> counted_;
+  std::vector<uint32_t> counted_, triangles_;
+  Known listed_;
 };
 
 }  // namespace whittle
