@@ -63,6 +63,7 @@ Result<Info> gather(const Model& model) {
   info.half_spaces = scene->half_spaces.size();
   info.bounds = bounds(model);
   info.tolerance = tolerance(info.bounds);
+  info.bounds.box = seen_box(model, info.bounds.box);
   return info;
 }
 

@@ -73,7 +73,10 @@ Shader::Shader(const Camera& camera, std::span<const Appearance> appearances,
   const auto world_from_eye = [&](Vec3f v) {
     return normalize(p.rays.right * v.x + p.rays.up * v.y - p.rays.forward * v.z);
   };
-  p.headlight = world_from_eye({-1, 1, 1});
+  if (settings.is_drawing)
+    p.ambient = 1;
+  else
+    p.headlight = world_from_eye({-1, 1, 1});
   p.key = world_from_eye(kKeyDirection);
   p.fill = world_from_eye(kFillDirection);
   p.rim = world_from_eye(kRimDirection);
@@ -82,13 +85,15 @@ Shader::Shader(const Camera& camera, std::span<const Appearance> appearances,
   const auto decode = [&](Vec3f c) { return p.style == Style::kStudio ? linear(c) : c; };
   p.top = decode(to_unit(scheme.background_top));
   p.bottom = decode(to_unit(scheme.background_bottom));
-  const Vec3f material = decode(to_unit(scheme.front)), cut = decode(to_unit(scheme.back));
+  const bool is_plane = p.style == Style::kOpenscad && settings.is_drawing;
+  const Vec3f material = decode(to_unit(is_plane ? scheme.plane : scheme.front));
+  const Vec3f cut = is_plane ? material : decode(to_unit(scheme.back));
   p.materials.reserve(appearances.size() + 3);
   for (const Appearance& a : appearances) {
     const bool has_color = p.style != Style::kOpenscad && a.color.is_valid();
     p.materials.push_back(has_color ? decode(base_color(a, scheme)) : a.cut ? cut : material);
   }
-  if (p.style == Style::kOpenscad && settings.lone_primitive &&
+  if (p.style == Style::kOpenscad && !is_plane && settings.lone_primitive &&
       *settings.lone_primitive < p.materials.size())
     p.materials[*settings.lone_primitive] = to_unit(scheme.lone);
   if (p.materials.empty()) p.materials.push_back({});  // the background's

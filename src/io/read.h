@@ -51,6 +51,8 @@ struct ReadOptions {
   std::optional<std::string> folder{};
   /// With it only files in this folder tree are read for the text, all links resolved.
   std::optional<std::string> import_root{};
+  /// Whether a drawing gets its outlines (Drawing).
+  bool outlines = false;
   /// The exact box of a solid (subdivide/solid_bounds.h), for resize(); without it bounds() stand
   /// for it.
   std::function<Box(const Model&)> solid_box{};

@@ -27,6 +27,7 @@ Result<Read> read_csg(std::string_view text, const std::string& file_name,
   EvaluateOptions evaluating{.curves = options.curves,
                              .most_facets = options.limits.facets,
                              .read_file = nullptr,
+                             .outlines = options.outlines,
                              .solid_box = options.solid_box};
   if (options.folder) {
     evaluating.read_file = [&, read = named_files(*options.folder, options.import_root,

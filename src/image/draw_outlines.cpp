@@ -1,0 +1,109 @@
+#include "image/draw_outlines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "base/result.h"
+#include "image/ink.h"
+#include "image/projected_line.h"
+
+namespace whittle {
+namespace {
+
+constexpr double kHalfWidth = 1;  ///< pixels
+/// Ends of lines lie on this part of a pixel, as Mesa's and most other rasterisers have them.
+constexpr double kSubpixels = 256;
+
+double snapped(double v) {
+  return std::round(v * kSubpixels) / kSubpixels;
+}
+
+class OutlineLayer {
+ public:
+  OutlineLayer(const Camera& camera, Rgb8 color, int samples)
+      : size_{camera.width, camera.height},
+        color_(to_unit(color)),
+        samples_(samples),
+        inks_(size_t(camera.width) * size_t(camera.height)) {}
+
+  void draw(const ProjectedLine& line) {
+    const double from[2] = {snapped(line.from.x), snapped(line.from.y)};
+    const double to[2] = {snapped(line.to.x), snapped(line.to.y)};
+    const double way[2] = {to[0] - from[0], to[1] - from[1]};
+    const int major = std::fabs(way[0]) >= std::fabs(way[1]) ? 0 : 1, minor = 1 - major;
+    if (way[major] == 0) return;
+    const double slope = way[minor] / way[major];
+    const int begin = std::max(first_sample(std::min(from[major], to[major])), 0);
+    const int end =
+        std::min(first_sample(std::max(from[major], to[major])), size_[major] * samples_);
+    for (int sample = begin; sample < end;) {
+      const int column = sample / samples_;
+      covered_.clear();
+      for (; sample < end && sample / samples_ == column; ++sample) {
+        const double middle = from[minor] + slope * ((sample + 0.5) / samples_ - from[major]);
+        covered_.push_back({std::max(first_sample(middle - kHalfWidth), 0),
+                            std::min(first_sample(middle + kHalfWidth), size_[minor] * samples_)});
+      }
+      draw_column(column, major == 0);
+    }
+  }
+
+  std::span<const Ink> inks() const { return inks_; }
+
+ private:
+  /// Samples from `first` to before `last`, from the edge of the picture.
+  struct Range {
+    int first, last;
+  };
+
+  /// The first sample whose middle is not before v.
+  int first_sample(double v) const { return int(std::ceil(v * samples_ - 0.5)); }
+
+  /// A column of pixels, or a row, of whose samples these are covered.
+  void draw_column(int column, bool is_column) {
+    Range all{size_[is_column ? 1 : 0] * samples_, 0};
+    for (const Range& range : covered_) {
+      all = {std::min(all.first, range.first), std::max(all.last, range.last)};
+    }
+    for (int row = all.first / samples_; row * samples_ < all.last; ++row) {
+      int count = 0;
+      for (const Range& range : covered_) {
+        count += std::max(
+            0, std::min(range.last, (row + 1) * samples_) - std::max(range.first, row * samples_));
+      }
+      if (count == 0) continue;
+      Ink& ink = inks_[is_column ? index(column, row) : index(row, column)];
+      ink.color = color_;
+      ink.strength = std::max(ink.strength, float(count) / float(samples_ * samples_));
+    }
+  }
+
+  size_t index(int x, int y) const { return size_t(y) * size_t(size_[0]) + size_t(x); }
+
+  const int size_[2];
+  const Vec3f color_;
+  const int samples_;  ///< a side of a pixel
+  std::vector<Ink> inks_;
+  std::vector<Range> covered_;  ///< scratch space: one of each column of samples
+};
+
+}  // namespace
+
+void draw_outlines(const Drawing& drawing, const Camera& camera, Rgb8 color, int antialias,
+                   Picture& picture) {
+  WHITTLE_CHECK(picture.width == camera.width && picture.height == camera.height);
+  const auto in_space = [](Vec2 p) { return Vec3{p.x, p.y, 0}; };
+  OutlineLayer lines(camera, color, antialias);
+  for (const std::vector<Vec2>& outline : drawing.outlines) {
+    for (size_t i = 0; i < outline.size(); ++i) {
+      const Vec3 to = in_space(outline[(i + 1) % outline.size()]);
+      if (const std::optional<ProjectedLine> line = project_line(camera, in_space(outline[i]), to))
+        lines.draw(*line);
+    }
+  }
+  lay_over(lines.inks(), picture);
+}
+
+}  // namespace whittle
