@@ -29,22 +29,25 @@ class OutlineLayer {
         inks_(size_t(camera.width) * size_t(camera.height)) {}
 
   void draw(const ProjectedLine& line) {
-    const double from[2] = {snapped(line.from.x), snapped(line.from.y)};
-    const double to[2] = {snapped(line.to.x), snapped(line.to.y)};
+    const double from[2] = {snapped(line.from.x) * samples_, snapped(line.from.y) * samples_};
+    const double to[2] = {snapped(line.to.x) * samples_, snapped(line.to.y) * samples_};
     const double way[2] = {to[0] - from[0], to[1] - from[1]};
     const int major = std::fabs(way[0]) >= std::fabs(way[1]) ? 0 : 1, minor = 1 - major;
     if (way[major] == 0) return;
+    const bool rises = way[major] > 0;
     const double slope = way[minor] / way[major];
-    const int begin = std::max(first_sample(std::min(from[major], to[major])), 0);
-    const int end =
-        std::min(first_sample(std::max(from[major], to[major])), size_[major] * samples_);
+    const int start = first_column(from[major], from[minor], rises);
+    const int stop = first_column(to[major], to[minor], rises);
+    const int begin = std::max(std::min(start, stop), 0);
+    const int end = std::min(std::max(start, stop), size_[major] * samples_);
+    const double half = kHalfWidth * samples_;
     for (int sample = begin; sample < end;) {
       const int column = sample / samples_;
       covered_.clear();
       for (; sample < end && sample / samples_ == column; ++sample) {
-        const double middle = from[minor] + slope * ((sample + 0.5) / samples_ - from[major]);
-        covered_.push_back({std::max(first_sample(middle - kHalfWidth), 0),
-                            std::min(first_sample(middle + kHalfWidth), size_[minor] * samples_)});
+        const double middle = from[minor] + slope * (sample + 0.5 - from[major]);
+        covered_.push_back({std::max(first_sample(middle - half), 0),
+                            std::min(first_sample(middle + half), size_[minor] * samples_)});
       }
       draw_column(column, major == 0);
     }
@@ -59,7 +62,17 @@ class OutlineLayer {
   };
 
   /// The first sample whose middle is not before v.
-  int first_sample(double v) const { return int(std::ceil(v * samples_ - 0.5)); }
+  static int first_sample(double v) { return int(std::ceil(v - 0.5)); }
+
+  /// The first column of samples that is behind an end of a line. A column that a line begins or
+  /// ends in, without its middle: it begins there if the end is in the diamond about a sample, and
+  /// goes on to there if it is not.
+  static int first_column(double along, double across, bool rises) {
+    const double column = std::floor(along), row = std::floor(across);
+    if (std::fabs(along - column - 0.5) + std::fabs(across - row - 0.5) < 0.5)
+      return int(column) + (rises ? 0 : 1);
+    return first_sample(along);
+  }
 
   /// A column of pixels, or a row, of whose samples these are covered.
   void draw_column(int column, bool is_column) {
