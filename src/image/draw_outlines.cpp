@@ -89,7 +89,8 @@ class OutlineLayer {
       if (count == 0) continue;
       Ink& ink = inks_[is_column ? index(column, row) : index(row, column)];
       ink.color = color_;
-      ink.strength = std::max(ink.strength, float(count) / float(samples_ * samples_));
+      // Lines that meet share the samples of a pixel.
+      ink.strength = std::min(ink.strength + float(count) / float(samples_ * samples_), 1.0f);
     }
   }
 

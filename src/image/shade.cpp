@@ -13,19 +13,24 @@ Vec3f linear(Vec3f srgb) {
 }
 
 /// The studio's own colours: a light backdrop, a cool light grey for material, a warm one for cuts.
-constexpr ColorScheme kStudioScheme{
-    "", {250, 251, 252}, {218, 222, 228}, {196, 206, 218}, {231, 199, 165}, {196, 206, 218}};
+/// A drawing has one tone, and must stand out by that.
+constexpr ColorScheme kStudioScheme{"",
+                                    {250, 251, 252},
+                                    {218, 222, 228},
+                                    {196, 206, 218},
+                                    {231, 199, 165},
+                                    {196, 206, 218},
+                                    {86, 112, 146}};
 /// As in the studio, but flat white behind: the paper's pictures stand on white.
-constexpr ColorScheme kBlinnScheme{
-    "", {255, 255, 255}, {255, 255, 255}, {196, 206, 218}, {231, 199, 165}, {196, 206, 218}};
+constexpr ColorScheme kBlinnScheme{"",
+                                   {255, 255, 255},
+                                   {255, 255, 255},
+                                   {196, 206, 218},
+                                   {231, 199, 165},
+                                   {196, 206, 218},
+                                   {86, 112, 146}};
 
-// The studio's lights: directions in eye space (right, up, towards the viewer).
-constexpr Vec3f kKeyDirection{-0.5f, 0.6f, 0.85f}, kFillDirection{0.85f, 0.05f, 0.55f},
-    kRimDirection{0.35f, 0.45f, -0.85f};
-
-}  // namespace
-
-ColorScheme effective_scheme(const ShadeSettings& settings) {
+ColorScheme own_scheme(const ShadeSettings& settings) {
   if (settings.scheme != nullptr) return *settings.scheme;
   switch (settings.style) {
     case Style::kStudio:
@@ -36,6 +41,18 @@ ColorScheme effective_scheme(const ShadeSettings& settings) {
       break;
   }
   return color_schemes().front();
+}
+
+// The studio's lights: directions in eye space (right, up, towards the viewer).
+constexpr Vec3f kKeyDirection{-0.5f, 0.6f, 0.85f}, kFillDirection{0.85f, 0.05f, 0.55f},
+    kRimDirection{0.35f, 0.45f, -0.85f};
+
+}  // namespace
+
+ColorScheme effective_scheme(const ShadeSettings& settings) {
+  ColorScheme scheme = own_scheme(settings);
+  if (settings.is_drawing) scheme.front = scheme.back = scheme.lone = scheme.plane;
+  return scheme;
 }
 
 std::vector<Light> lights(const Camera& camera, const ShadeSettings& settings) {
@@ -85,15 +102,13 @@ Shader::Shader(const Camera& camera, std::span<const Appearance> appearances,
   const auto decode = [&](Vec3f c) { return p.style == Style::kStudio ? linear(c) : c; };
   p.top = decode(to_unit(scheme.background_top));
   p.bottom = decode(to_unit(scheme.background_bottom));
-  const bool is_plane = p.style == Style::kOpenscad && settings.is_drawing;
-  const Vec3f material = decode(to_unit(is_plane ? scheme.plane : scheme.front));
-  const Vec3f cut = is_plane ? material : decode(to_unit(scheme.back));
+  const Vec3f material = decode(to_unit(scheme.front)), cut = decode(to_unit(scheme.back));
   p.materials.reserve(appearances.size() + 3);
   for (const Appearance& a : appearances) {
     const bool has_color = p.style != Style::kOpenscad && a.color.is_valid();
     p.materials.push_back(has_color ? decode(base_color(a, scheme)) : a.cut ? cut : material);
   }
-  if (p.style == Style::kOpenscad && !is_plane && settings.lone_primitive &&
+  if (p.style == Style::kOpenscad && settings.lone_primitive &&
       *settings.lone_primitive < p.materials.size())
     p.materials[*settings.lone_primitive] = to_unit(scheme.lone);
   if (p.materials.empty()) p.materials.push_back({});  // the background's

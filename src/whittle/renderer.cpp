@@ -293,8 +293,8 @@ Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
     if (!s.cut_faces) s.cut_faces.emplace(s.scene);
     look.cut_faces = &*s.cut_faces;
     look.lone_primitive = lone_primitive(s.model);
-    look.is_drawing = s.model.drawing.has_value();
   }
+  look.is_drawing = s.model.drawing.has_value();
   // On a plane there are none.
   if (look.shadows && !s.model.drawing) look.casters = view_region(bounds(s.model));
   const auto shaded = [&] {
@@ -305,7 +305,7 @@ Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
     if (!s.falls_back(status.error(), camera)) return status.error();
     picture = shaded();
   }
-  if (look.is_drawing) {
+  if (look.is_drawing && look.style == Style::kOpenscad) {
     const Rgb8 color = effective_scheme(look).outline;
     draw_outlines(*s.model.drawing, camera, color, std::max(antialias, 1), picture);
   }
