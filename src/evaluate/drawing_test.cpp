@@ -89,8 +89,8 @@ TEST(Drawing, OutlinesAreThoseOfAllTogether) {
 
 TEST(Drawing, OutlinesAreMadeOnlyWhereTheyAreAskedFor) {
   EXPECT_TRUE(evaluated("square(3);").model.drawing->outlines.empty());
-  const Read read = evaluated("square(3); projection() cube(1); text(\"a\", font = \"Nope\");",
-                              with_outlines());
+  const Read read =
+      evaluated("square(3); projection() cube(1); text(\"a\", font = \"Nope\");", with_outlines());
   EXPECT_FALSE(read.model.drawing->outlines.empty());
   EXPECT_EQ(read.warnings.size(), 2u) << "nothing is said twice";
 }

@@ -50,9 +50,10 @@ double outline_ink(const Picture& picture) {
 
 TEST(DrawOutlines, LinesAreTwoPixelsWideAndEndSquareToThePicture) {
   // Each ends in a column or row of pixels, so corners are notched.
-  const std::vector<std::string> expected = {
-      "............", "............", "...######...", "..########..", "..##....##..", "..##....##..",
-      "..##....##..", "..##....##..", "..########..", "...######...", "............", "............"};
+  const std::vector<std::string> expected = {"............", "............", "...######...",
+                                             "..########..", "..##....##..", "..##....##..",
+                                             "..##....##..", "..##....##..", "..########..",
+                                             "...######...", "............", "............"};
   EXPECT_EQ(outline_rows({{3, 3}, {9, 3}, {9, 9}, {3, 9}}), expected);
 }
 
@@ -95,7 +96,8 @@ TEST(DrawOutlines, WithSamplesAPixelIsAsRedAsItIsCovered) {
 
 TEST(DrawOutlines, WhatIsOutsideThePictureIsLeftOut) {
   EXPECT_EQ(outline_ink(outline_picture({{-5, -5}, {99, -5}, {99, 99}, {-5, 99}})), 0);
-  const std::vector<std::string> rows = outline_rows({{-1e9, 6}, {1e9, 6}, {1e9, 1e9}, {-1e9, 1e9}});
+  const std::vector<std::string> rows =
+      outline_rows({{-1e9, 6}, {1e9, 6}, {1e9, 1e9}, {-1e9, 1e9}});
   EXPECT_EQ(rows[5], std::string(kOutlineSide, '#'));
   EXPECT_EQ(rows[7], std::string(kOutlineSide, '.'));
   EXPECT_EQ(outline_ink(outline_picture({})), 0);
