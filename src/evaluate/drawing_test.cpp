@@ -98,7 +98,13 @@ TEST(Drawing, OutlinesAreMadeOnlyWhereTheyAreAskedFor) {
 TEST(Drawing, OutlinesCountAsWork) {
   ReadOptions options = with_outlines();
   options.limits.facets = 60;
-  EXPECT_NE(evaluation_error("circle(r = 1, $fn = 50);", options).find("limit"), std::string::npos);
+  EXPECT_EQ(evaluation_error("circle(r = 1, $fn = 50);", options), "no error");
+  options.limits.facets = 1;
+  std::string squares;
+  for (int i = 0; i < 9; ++i) squares += "square(3);";
+  EXPECT_NE(evaluation_error(squares, options).find("limit"), std::string::npos);
+  options.outlines = false;
+  EXPECT_EQ(evaluation_error(squares, options), "no error");
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ Result<Model> evaluate(Document document, const EvaluateOptions& options, Warnin
     if (budget.is_spent()) return too_much();
     if (model.drawing && options.outlines) {
       Warnings said_before(document.model.file);
+      budget = Budget(options.most_facets);  // The same shapes once more are no more faces.
       model.drawing->outlines = Evaluator(document, options, budget, said_before).outlines(where);
       if (budget.is_spent()) return too_much();
     }
