@@ -16,6 +16,7 @@
 #include "base/result.h"
 #include "model/facets.h"
 #include "model/model.h"
+#include "model/statement_counts.h"
 #include "model/warnings.h"
 
 namespace whittle {
@@ -62,6 +63,7 @@ struct ReadOptions {
 /// What was read.
 struct Read {
   Model model;
+  StatementCounts counts;  ///< of the text, as it is written
   /// Full messages, `file:line:column: warning: ...`: of what is written in the order of the file,
   /// then likewise of what has become of it. Many of one kind are summed up in one line.
   std::vector<std::string> warnings;

@@ -37,6 +37,7 @@ Result<Read> read_csg(std::string_view text, const std::string& file_name,
       return read(name);
     };
   }
+  StatementCounts counts = std::move(document->counts);
   Result<Model> model = evaluate(std::move(*document), evaluating, warnings);
   if (!model) return model.error();
   const std::optional<Unsupported> unsupported = warnings.unsupported();
@@ -45,8 +46,8 @@ Result<Read> read_csg(std::string_view text, const std::string& file_name,
     refusal =
         message_at(file_name, unsupported->where, fmt::format("error: {}", unsupported->message));
   }
-  return Read{std::move(*model), warnings.take(), unsupported, std::move(refusal),
-              std::move(files)};
+  return Read{std::move(*model), std::move(counts),  warnings.take(),
+              unsupported,       std::move(refusal), std::move(files)};
 }
 
 }  // namespace whittle
