@@ -79,10 +79,11 @@ void Evaluator::close_root(const Frame& root) {
   // The height is nothing that anyone wrote, so no tolerance may follow from it: it is less than
   // the longest edge of the box, and more than what makes a primitive thin.
   constexpr double kFlatness = 64;
+  constexpr double kLeast = 1e-100;  // Squares of less may be 0.
   const Box box = bounds(out_).box;
   const Vec3 size = box.is_empty() ? Vec3{} : box.size();
   const double height = std::fmax(size.x, size.y) / kFlatness;
-  if (!(height > 0 && std::isfinite(height))) return;
+  if (!(height >= kLeast && std::isfinite(height))) return;
   Affine& map = out_.transforms.front();
   map.row[2].z = height;
   map.translation.z = -height / 2;

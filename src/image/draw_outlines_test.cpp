@@ -100,6 +100,10 @@ TEST(DrawOutlines, WhatIsOutsideThePictureIsLeftOut) {
       outline_rows({{-1e9, 6}, {1e9, 6}, {1e9, 1e9}, {-1e9, 1e9}});
   EXPECT_EQ(rows[5], std::string(kOutlineSide, '#'));
   EXPECT_EQ(rows[7], std::string(kOutlineSide, '.'));
+  for (const double far : {1e75, 1e300}) {
+    outline_picture({{-far, 6.3}, {far, -far}, {0.7 * far, far}});
+    outline_picture({{-far, -0.9 * far}, {far, far}, {0.7 * far, far}});
+  }
   EXPECT_EQ(outline_ink(outline_picture({})), 0);
   EXPECT_EQ(outline_ink(outline_picture({{4, 4}})), 0) << "a point has no length";
 }

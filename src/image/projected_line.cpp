@@ -58,7 +58,14 @@ Vec3 project(const Camera& camera, Vec3 p) {
 std::optional<ProjectedLine> project_line(const Camera& camera, Vec3 from, Vec3 to) {
   Vec3 a = to_eye(camera, from), b = to_eye(camera, to);
   if (!clip(camera, a, b)) return std::nullopt;
-  return ProjectedLine{project(camera, a), project(camera, b)};
+  a = project(camera, a), b = project(camera, b);
+  if (!is_finite(a) || !is_finite(b)) return std::nullopt;
+  for (Vec3* end : {&a, &b}) {
+    // Of ends that are very far away rounding may leave more.
+    end->x = std::clamp(end->x, -kMargin, camera.width + kMargin);
+    end->y = std::clamp(end->y, -kMargin, camera.height + kMargin);
+  }
+  return ProjectedLine{a, b};
 }
 
 }  // namespace whittle

@@ -41,6 +41,7 @@ void DrawingTracer::probe(const Camera& camera, std::span<const PixelPosition> p
   meet(camera, positions);
   const Camera above = look_down();
   const double scale = 1 / above.units_per_pixel();
+  if (!std::isfinite(scale) || scale == 0) return;
   places_.clear();
   for (const Meeting& meeting : meetings_) {
     if (meeting.normal == 0) continue;
@@ -84,9 +85,9 @@ Camera DrawingTracer::look_down() const {
   }
   if (seen.is_empty()) seen = box_;
   const Vec3 size = seen.size(), whole = box_.size();
+  const double longest = std::max(whole.x, whole.y);
   // Of few points, or of one, as large a part is looked at as floats tell places apart in.
-  const double edge =
-      std::max({size.x, size.y, 1e-6 * std::max(whole.x, whole.y), box_.diagonal() * 1e-6});
+  const double edge = std::max({size.x, size.y, 1e-6 * longest});
   const double side = std::clamp(std::ceil(std::sqrt(double(count))), 1.0, kMostSide);
   const double pixel = edge / side;
   const auto pixels = [&](double length) {
@@ -94,7 +95,7 @@ Camera DrawingTracer::look_down() const {
   };
   Camera camera;
   camera.width = pixels(size.x), camera.height = pixels(size.y);
-  camera.eye = {seen.center().x, seen.center().y, box_.hi.z + box_.diagonal()};
+  camera.eye = {seen.center().x, seen.center().y, box_.hi.z + longest};
   camera.right = {1, 0, 0}, camera.up = {0, 1, 0}, camera.forward = {0, 0, -1};
   camera.orthographic = true;
   camera.half_height = 0.5 * pixel * camera.height;
