@@ -101,7 +101,7 @@ TEST(Drawing, OutlinesCountAsWork) {
   EXPECT_EQ(evaluation_error("circle(r = 1, $fn = 50);", options), "no error");
   options.limits.facets = 1;
   std::string squares;
-  for (int i = 0; i < 9; ++i) squares += "square(3);";
+  for (int i = 0; i < 20; ++i) squares += "square(3);";
   EXPECT_NE(evaluation_error(squares, options).find("limit"), std::string::npos);
   options.outlines = false;
   EXPECT_EQ(evaluation_error(squares, options), "no error");
