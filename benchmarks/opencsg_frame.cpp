@@ -26,11 +26,12 @@
 #include <vector>
 
 #include "base/box.h"
+#include "base/degrees.h"
 #include "base/timing.h"
 #include "io/generate.h"
 #include "io/read.h"
-#include "model/facets.h"
 #include "model/instances.h"
+#include "shape/fragments.h"
 #include "whittle/renderer.h"
 
 namespace whittle {

@@ -24,10 +24,8 @@ constexpr CommandHelp kHelp = {
     "  whittle info part.csg --json | jq .half_spaces\n\n"
     "Exit codes: 0 done, 1 bad input, 2 bad usage, 3 refused by the machine."};
 
-constexpr std::array<const char*, 7> kNodeNames = {
+constexpr std::array<std::string_view, 7> kNodeNames = {
     "union", "difference", "intersection", "transform", "color", "primitive", "body"};
-constexpr std::array<const char*, std::variant_size_v<Shape>> kShapeNames = {
-    "cube", "sphere", "cylinder", "polyhedron", "halfspace", "mesh"};
 
 struct Info {
   std::array<size_t, kNodeNames.size()> nodes{};
@@ -113,7 +111,7 @@ class CountList {
 };
 
 template <size_t count>
-std::string list(const std::array<const char*, count>& names,
+std::string list(const std::array<std::string_view, count>& names,
                  const std::array<size_t, count>& numbers) {
   CountList counts;
   for (size_t i = 0; i < count; ++i) counts.add(names[i], numbers[i]);

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/box.h"
-#include "model/polyhedron.h"
+#include "shape/build_planes.h"
 
 namespace whittle {
 namespace {

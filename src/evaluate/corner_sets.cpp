@@ -8,23 +8,12 @@
 #include "evaluate/convex_hull.h"
 #include "evaluate/extrusions.h"
 #include "evaluate/flat_values.h"
-#include "evaluate/polyhedra.h"
-#include "model/facets.h"
+#include "shape/shape.h"
 
 namespace whittle {
 namespace {
 
-/// Six times the volume about a point near the surface.
-double volume_of(const TriangleMesh& mesh) {
-  double sum = 0;
-  const Vec3 o = mesh.points.front();
-  for (const TriangleMesh::Triangle& t : mesh.triangles) {
-    const auto at = [&](int k) { return mesh.points[t.corners[size_t(k)]] - o; };
-    sum += dot(at(0), cross(at(1), at(2)));
-  }
-  return sum;
-}
-
+/// By fans of triangles, about a point of it.
 double volume_of(const Polyhedron& solid) {
   double sum = 0;
   const Vec3 o = solid.points.front();
@@ -34,7 +23,7 @@ double volume_of(const Polyhedron& solid) {
                  cross(solid.points[face[k]] - o, solid.points[face[k - 1]] - o));
     }
   }
-  return sum;
+  return sum / 6;
 }
 
 /// Whether a mesh is its own hull, as its volume tells.
@@ -43,7 +32,7 @@ bool is_convex(const TriangleMesh& mesh) {
   if (!hull) return false;
   constexpr double kSame = 1e-6;
   const double whole = volume_of(*hull);
-  return std::fabs(volume_of(mesh) - whole) <= kSame * whole;
+  return std::fabs(volume(mesh) - whole) <= kSame * whole;
 }
 
 CornerSet extruded(std::span<const Vec2> outline, const LinearExtrude& how) {
@@ -70,12 +59,12 @@ std::optional<Polyhedron> sum_of(const std::vector<Vec3>& a, const std::vector<V
 
 CornerSet corners_of(const Shape& shape, bool wants_convex, Budget& budget) {
   CornerSet set;
-  if (is_empty(shape) || std::holds_alternative<Halfspace>(shape) || !is_flat(shape)) return set;
+  if (is_empty(shape) || !is_flat(shape)) return set;
   // There are not many more corners than facets.
   if (!budget.work(facet_count(shape) + 8)) return set;
-  set.points = facet_vertices(shape);
-  const auto* const mesh = std::get_if<Mesh>(&shape);
-  set.is_convex = !mesh || (wants_convex && is_convex(*mesh->surface));
+  set.points = outline(shape);
+  const TriangleMesh* const mesh = boundary(shape);
+  set.is_convex = !mesh || (wants_convex && is_convex(*mesh));
   return set;
 }
 

@@ -9,9 +9,9 @@
 #include "base/box.h"
 #include "base/result.h"
 #include "model/document.h"
-#include "model/facets.h"
 #include "model/model.h"
 #include "model/warnings.h"
+#include "shape/fragments.h"
 
 namespace whittle {
 

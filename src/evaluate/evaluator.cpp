@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "evaluate/extrusions.h"
-#include "model/facets.h"
 #include "model/instances.h"
+#include "shape/fragments.h"
 
 namespace whittle {
 

@@ -6,7 +6,7 @@
 
 #include "evaluate/flat_values.h"
 #include "flat/extrude.h"
-#include "model/polyhedron.h"
+#include "shape/build_planes.h"
 
 namespace whittle {
 namespace {

@@ -9,8 +9,8 @@
 #include "evaluate/evaluate.h"
 #include "flat/polygons.h"
 #include "model/document.h"
-#include "model/triangle_mesh.h"
 #include "model/warnings.h"
+#include "shape/triangle_mesh.h"
 
 namespace whittle {
 

@@ -8,14 +8,10 @@
 #include <fmt/format.h>
 
 #include "base/printable.h"
-#include "model/facets.h"
+#include "shape/fragments.h"
 
 namespace whittle {
 namespace {
-
-bool is_size(double x) {
-  return x > 0 && std::isfinite(x);
-}
 
 double turn(Vec2 a, Vec2 b, Vec2 c) {
   return cross(b - a, c - b);

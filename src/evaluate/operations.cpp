@@ -13,7 +13,7 @@
 #include "evaluate/resize.h"
 #include "evaluate/revolution.h"
 #include "flat/extrude.h"
-#include "model/facets.h"
+#include "shape/fragments.h"
 
 namespace whittle {
 

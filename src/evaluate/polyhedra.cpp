@@ -11,7 +11,7 @@
 
 #include "base/workers.h"
 #include "mesh/close_mesh.h"
-#include "model/polyhedron.h"
+#include "shape/build_planes.h"
 
 namespace whittle {
 namespace {
@@ -72,22 +72,6 @@ void warn_of(const Built& built, const Shape& shape, SourceLocation where, Warni
 }
 
 }  // namespace
-
-uint64_t facet_count(const Shape& shape) {
-  if (const auto* const sphere = std::get_if<Sphere>(&shape)) {
-    // n faces between each two of (n + 1) / 2 rings, and two caps.
-    const auto n = static_cast<uint64_t>(sphere->facets);
-    return n > 0 ? n * ((n + 1) / 2 - 1) + 2 : 0;
-  }
-  if (const auto* const cylinder = std::get_if<Cylinder>(&shape)) {
-    return cylinder->facets > 0 ? static_cast<uint64_t>(cylinder->facets) + 2 : 0;
-  }
-  if (const auto* const mesh = std::get_if<Mesh>(&shape)) {
-    return mesh->surface ? mesh->surface->triangles.size() : 0;
-  }
-  const auto* const polyhedron = std::get_if<Polyhedron>(&shape);
-  return polyhedron ? polyhedron->faces.size() : 0;
-}
 
 void build_polyhedra(Model& model, int threads, Budget& budget, Warnings& warnings,
                      SourceLocation& where) {

@@ -1,7 +1,5 @@
-// Primitives with flat faces: how many they have, and which are convex.
+// Polyhedra as they were written: which of them are convex.
 #pragma once
-
-#include <cstdint>
 
 #include "evaluate/budget.h"
 #include "model/model.h"
@@ -11,9 +9,6 @@ namespace whittle {
 
 /// Digits of a number in a text.
 inline constexpr int kPrintedDigits = 6;
-
-/// The facets of a facetted sphere or cylinder, of a polyhedron or a mesh.
-uint64_t facet_count(const Shape& shape);
 
 /// Fills the planes of the polyhedra in the tree, and makes meshes of those that are not convex, on
 /// so many threads (0: all). What stays open is empty, with a warning. Spends their facets; stops

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/degrees.h"
 #include "evaluate/extrusions.h"
-#include "model/facets.h"
 
 namespace whittle {
 namespace {

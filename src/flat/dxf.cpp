@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "flat/outlines.h"
-#include "model/facets.h"
+#include "shape/fragments.h"
 
 namespace whittle {
 namespace {

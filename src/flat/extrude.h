@@ -3,7 +3,7 @@
 
 #include "flat/polygons.h"
 #include "model/document.h"
-#include "model/triangle_mesh.h"
+#include "shape/triangle_mesh.h"
 
 namespace whittle {
 

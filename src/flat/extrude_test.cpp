@@ -9,7 +9,6 @@
 #include <set>
 
 #include "flat/polygons_for_test.h"
-#include "model/facets.h"
 
 namespace whittle {
 namespace {

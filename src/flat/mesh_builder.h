@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "model/triangle_mesh.h"
+#include "shape/triangle_mesh.h"
 
 namespace whittle {
 

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <exception>
 
+#include "base/degrees.h"
 #include "flat/grid.h"
-#include "model/facets.h"
+#include "shape/fragments.h"
 
 namespace whittle {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "flat/polygons.h"
-#include "model/triangle_mesh.h"
+#include "shape/triangle_mesh.h"
 
 namespace whittle {
 

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <vector>
 
+#include "base/degrees.h"
 #include "flat/polygons_for_test.h"
-#include "model/facets.h"
 
 namespace whittle {
 namespace {

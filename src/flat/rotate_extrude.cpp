@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/degrees.h"
 #include "flat/extrude.h"
 #include "flat/mesh_builder.h"
 #include "flat/sides.h"
 #include "flat/triangulation.h"
-#include "model/facets.h"
 
 namespace whittle {
 

@@ -5,7 +5,8 @@
 #include <numbers>
 #include <queue>
 
-#include "model/facets.h"
+#include "base/degrees.h"
+#include "shape/fragments.h"
 
 namespace whittle {
 

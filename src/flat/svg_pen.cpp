@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "model/facets.h"
+#include "base/degrees.h"
 
 namespace whittle {
 namespace {

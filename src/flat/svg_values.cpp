@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "model/facets.h"
+#include "base/degrees.h"
 
 namespace whittle {
 namespace {

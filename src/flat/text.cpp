@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "flat/font_calls.h"
-#include "model/facets.h"
+#include "shape/fragments.h"
 
 namespace whittle {
 namespace {

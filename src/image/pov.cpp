@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "model/facets.h"
 #include "model/instances.h"
+#include "shape/shape.h"
 
 namespace whittle {
 namespace {
@@ -31,7 +31,7 @@ void write_facets(Out out, const Shape& shape) {
     fmt::format_to(out, "  plane {{ {}, {:.17g} }}\n", vec(p.n), p.d);
   }
   Box box;
-  for (const Vec3& v : facet_vertices(shape)) box.include(v);
+  for (const Vec3& v : outline(shape)) box.include(v);
   // POV-Ray finds no bounds for planes by itself. The margin keeps the box off the faces.
   const Vec3 margin = Vec3{1, 1, 1} * (1e-3 * box.diagonal());
   fmt::format_to(out, "  bounded_by {{ box {{ {}, {} }} }}\n", vec(box.lo - margin),

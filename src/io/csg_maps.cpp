@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/degrees.h"
 #include "io/color_names.h"
 #include "io/csg_arguments.h"
-#include "model/facets.h"
 
 namespace whittle {
 namespace {

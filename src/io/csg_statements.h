@@ -11,8 +11,8 @@
 #include <string_view>
 
 #include "io/csg_values.h"
-#include "model/facets.h"
 #include "model/warnings.h"
+#include "shape/fragments.h"
 
 namespace whittle {
 
@@ -65,9 +65,6 @@ struct StatementType {
 /// The type of a statement; for a name that is not known, a kUnknown without a name.
 const StatementType& find_statement(std::string_view name);
 
-inline bool is_primitive(Meaning meaning) {
-  return meaning >= Meaning::kCube && meaning <= Meaning::kHalfspace;
-}
 /// True if the statement stands for a shape, so that it has an id: primitives, the leaves of a
 /// document, and its operations.
 inline bool has_id(Meaning meaning) {

@@ -48,7 +48,9 @@ inline std::string tree(const Model& model) {
     if (node.highlight) text += '#';
     if (node.kind == NodeKind::kPrimitive) {
       const Primitive& primitive = model.primitives.at(node.payload);
-      text += "csyphm"[primitive.shape.index()];
+      constexpr std::string_view kLetters = "csyphm";
+      static_assert(kLetters.size() == std::variant_size_v<Shape>);
+      text += kLetters[primitive.shape.index()];
       text += std::to_string(primitive.id);
       EXPECT_EQ(node.end, i + 1);
     } else {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "io/csg_leaves.h"
@@ -93,13 +92,13 @@ std::optional<Mistake> DocumentBuilder::set_meaning(const Statement& statement,
   const Meaning meaning = statement.type->meaning;
   switch (meaning) {
     case Meaning::kUnion:
-      return std::nullopt;
+      break;
     case Meaning::kDifference:
       node.kind = NodeKind::kDifference;
-      return std::nullopt;
+      break;
     case Meaning::kIntersection:
       node.kind = NodeKind::kIntersection;
-      return std::nullopt;
+      break;
     case Meaning::kMultmatrix:
     case Meaning::kTranslate:
     case Meaning::kRotate:
@@ -107,20 +106,67 @@ std::optional<Mistake> DocumentBuilder::set_meaning(const Statement& statement,
     case Meaning::kMirror: {
       Affine map = make_transform(statement, warnings_);
       if (options_.polish && meaning == Meaning::kMultmatrix) map = polished(map);
-      if (map == Affine{}) return std::nullopt;
+      if (map == Affine{}) break;
       node.kind = NodeKind::kTransform;
       node.payload = static_cast<uint32_t>(model.transforms.size());
       model.transforms.push_back(map);
-      return std::nullopt;
+      break;
     }
     case Meaning::kColor: {
       const Rgba color = make_color(statement, warnings_);
-      if (color == Rgba{}) return std::nullopt;
+      if (color == Rgba{}) break;
       node.kind = NodeKind::kColor;
       node.payload = static_cast<uint32_t>(model.colors.size());
       model.colors.push_back(color);
-      return std::nullopt;
+      break;
     }
+    case Meaning::kCube:
+      set_primitive(make_cube(statement, warnings_), node);
+      break;
+    case Meaning::kSphere:
+      set_primitive(make_sphere(statement, warnings_), node);
+      break;
+    case Meaning::kCylinder:
+      set_primitive(make_cylinder(statement, warnings_), node);
+      break;
+    case Meaning::kPolyhedron: {
+      std::string mistake;
+      set_primitive(make_polyhedron(statement, mistake), node);
+      if (!mistake.empty()) return Mistake{statement.where, "polyhedron: " + mistake};
+      break;
+    }
+    case Meaning::kHalfspace:
+      set_primitive(make_halfspace(statement, warnings_), node);
+      break;
+    case Meaning::kSquare:
+      set_leaf(make_square(statement, warnings_), node);
+      break;
+    case Meaning::kCircle:
+      set_leaf(make_circle(statement, warnings_), node);
+      break;
+    case Meaning::kPolygon:
+      set_leaf(make_polygon(statement, warnings_), node);
+      break;
+    case Meaning::kText:
+      set_leaf(make_text(statement, is_dumped_text, warnings_), node);
+      break;
+    case Meaning::kImport:
+      set_leaf(make_import(statement, warnings_), node);
+      break;
+    case Meaning::kSurface:
+      set_leaf(make_height_map(statement, warnings_), node);
+      break;
+    case Meaning::kLinearExtrude:
+    case Meaning::kRotateExtrude:
+    case Meaning::kOffset:
+    case Meaning::kResize:
+    case Meaning::kProjection:
+    case Meaning::kHull:
+    case Meaning::kMinkowski:
+    case Meaning::kFill:
+    case Meaning::kRoof:
+      set_operation(statement, node);
+      break;
     case Meaning::kUnknown: {
       // What OpenSCAD does not have either is rather a slip of the pen.
       const std::string what = fmt::format("{} is not known", quote(name));
@@ -130,68 +176,26 @@ std::optional<Mistake> DocumentBuilder::set_meaning(const Statement& statement,
       } else {
         warnings_.add_unsupported(message, statement.where, message, what);
       }
-      return std::nullopt;
+      break;
     }
-    default:
-      if (is_primitive(meaning)) return set_primitive(statement, node);
-      if (is_childless(meaning)) {
-        set_leaf(statement, is_dumped_text, node);
-      } else {
-        set_operation(statement, node);
-      }
-      return std::nullopt;
+    case Meaning::kLanguage:
+      break;  // The reader has refused it.
   }
+  return std::nullopt;
 }
 
-std::optional<Mistake> DocumentBuilder::set_primitive(const Statement& statement, Node& node) {
+void DocumentBuilder::set_primitive(Shape shape, Node& node) {
   Model& model = document_.model;
   node.kind = NodeKind::kPrimitive;
   node.payload = static_cast<uint32_t>(model.primitives.size());
-  Primitive& primitive = model.primitives.emplace_back();
-  primitive.id = model.statement_count;
-  switch (statement.type->meaning) {
-    case Meaning::kCube:
-      primitive.shape = make_cube(statement, warnings_);
-      return std::nullopt;
-    case Meaning::kSphere:
-      primitive.shape = make_sphere(statement, warnings_);
-      return std::nullopt;
-    case Meaning::kCylinder:
-      primitive.shape = make_cylinder(statement, warnings_);
-      return std::nullopt;
-    case Meaning::kHalfspace:
-      primitive.shape = make_halfspace(statement, warnings_);
-      return std::nullopt;
-    default: {
-      std::string mistake;
-      primitive.shape = make_polyhedron(statement, mistake);
-      if (mistake.empty()) return std::nullopt;
-      return Mistake{statement.where, "polyhedron: " + mistake};
-    }
-  }
+  model.primitives.push_back({std::move(shape), model.statement_count});
 }
 
-void DocumentBuilder::set_leaf(const Statement& statement, bool is_dumped_text, Node& node) {
+void DocumentBuilder::set_leaf(Leaf leaf, Node& node) {
   node.kind = NodeKind::kLeaf;
   node.payload = static_cast<uint32_t>(document_.leaves.size());
   document_.leaf_ids.push_back(document_.model.statement_count);
-  const auto make = [&]() -> Leaf {
-    switch (statement.type->meaning) {
-      case Meaning::kSquare:
-        return make_square(statement, warnings_);
-      case Meaning::kCircle:
-        return make_circle(statement, warnings_);
-      case Meaning::kPolygon:
-        return make_polygon(statement, warnings_);
-      case Meaning::kText:
-        return make_text(statement, is_dumped_text, warnings_);
-      case Meaning::kImport:
-        return make_import(statement, warnings_);
-      default:
-        return make_height_map(statement, warnings_);
-    }
-  };
-  document_.leaves.push_back(make());
+  document_.leaves.push_back(std::move(leaf));
 }
 
 void DocumentBuilder::set_operation(const Statement& statement, Node& node) {
@@ -222,10 +226,9 @@ void DocumentBuilder::add_extruded_file(const Statement& statement, OpenStatemen
 
 void DocumentBuilder::take_fragments(const Statement& statement, const OpenStatement& parent,
                                      const OpenStatement& open, const Node& node) {
-  const Meaning meaning = statement.type->meaning;
   const bool has_fragments =
       node.kind == NodeKind::kPrimitive
-          ? meaning == Meaning::kSphere || meaning == Meaning::kCylinder
+          ? may_be_curved(document_.model.primitives[node.payload].shape)
       : node.kind == NodeKind::kLeaf
           ? std::visit(FragmentsOf{}, document_.leaves[node.payload]) != nullptr
           : node.kind == NodeKind::kOperation &&
@@ -257,11 +260,11 @@ void DocumentBuilder::set_fragments(const Pending& curve, const FragmentSettings
     const int facets = choose_facets(r, settings, curves);
     return curve.needs_corners && facets == 0 ? kMaxFacets : facets;
   };
-  if (auto* const sphere = std::get_if<Sphere>(&shape)) {
-    sphere->facets = choose(sphere->r);
-  } else if (auto* const cylinder = std::get_if<Cylinder>(&shape)) {
-    cylinder->facets = choose(std::fmax(cylinder->r1, cylinder->r2));
-  }
+  std::visit(
+      [&]<class S>(S& s) {
+        if constexpr (Curved<S>) s.facets = choose(s.widest_radius());
+      },
+      shape);
 }
 
 bool DocumentBuilder::keeps_empty_operands(const Node& node) const {

@@ -79,8 +79,8 @@ class DocumentBuilder {
 
   std::optional<Mistake> set_meaning(const Statement& statement, std::string_view name,
                                      bool is_dumped_text, OpenStatement& open, Node& node);
-  std::optional<Mistake> set_primitive(const Statement& statement, Node& node);
-  void set_leaf(const Statement& statement, bool is_dumped_text, Node& node);
+  void set_primitive(Shape shape, Node& node);
+  void set_leaf(Leaf leaf, Node& node);
   void set_operation(const Statement& statement, Node& node);
   void add_extruded_file(const Statement& statement, OpenStatement& open);
   bool keeps_empty_operands(const Node& node) const;

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "model/facets.h"
+#include "base/degrees.h"
 
 namespace whittle {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "model/facets.h"
+#include "base/degrees.h"
 
 namespace whittle {
 namespace {

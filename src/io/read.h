@@ -14,10 +14,10 @@
 
 #include "base/box.h"
 #include "base/result.h"
-#include "model/facets.h"
 #include "model/model.h"
 #include "model/statement_counts.h"
 #include "model/warnings.h"
+#include "shape/fragments.h"
 
 namespace whittle {
 

@@ -10,7 +10,7 @@
 
 #include "base/affine.h"
 #include "base/box.h"
-#include "model/triangle_mesh.h"
+#include "shape/triangle_mesh.h"
 
 namespace whittle {
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "model/extent.h"
+#include "shape/extent.h"
+#include "shape/wall.h"
 
 namespace whittle {
 namespace {

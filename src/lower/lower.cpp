@@ -6,8 +6,8 @@
 
 #include "lower/merge.h"
 #include "lower/primitive_faces.h"
-#include "model/facets.h"
 #include "model/instances.h"
+#include "shape/shape.h"
 
 namespace whittle {
 namespace {
@@ -15,12 +15,6 @@ namespace {
 /// Below this many faces a primitive is classified face by face anyway, and a ball inside it or
 /// boxes around its facets would save nothing.
 constexpr uint32_t kManyFaces = 12;
-
-/// Bodies that are made of numbers, so that their faces lie where their boxes say.
-bool is_exact(const Shape& shape) {
-  return std::holds_alternative<Cube>(shape) || std::holds_alternative<Sphere>(shape) ||
-         std::holds_alternative<Cylinder>(shape);
-}
 
 /// Corners move by more than the faces that meet there.
 constexpr double kCornersMore = 10;
@@ -57,13 +51,13 @@ void grow_for_moved_planes(const Unit& unit, double moved, Scene& scene) {
 /// `moved`: by how much merging may move a face of it.
 void add_face_boxes(const Shape& shape, const Affine& local_from_object, double moved, Unit& unit,
                     Scene& scene) {
-  const std::vector<Box> boxes = facet_boxes(shape, {});
+  const std::vector<Box> boxes = facet_boxes(shape);
   if (boxes.size() != unit.face_count) return;
   unit.first_box = uint32_t(scene.face_boxes.size());
   unit.box_frame = uint32_t(scene.box_frames.size());
   scene.box_frames.push_back(inverse(local_from_object));
   scene.face_boxes.insert(scene.face_boxes.end(), boxes.begin(), boxes.end());
-  if (std::holds_alternative<Sphere>(shape) || std::holds_alternative<Cylinder>(shape))
+  if (is_exact(shape))
     grow_face_boxes(unit, 1e-4, 0, scene);
   else
     grow_for_moved_planes(unit, moved, scene);
@@ -295,17 +289,17 @@ Result<Scene> lower(const Model& model) {
     }
     for (const HalfSpace& half_space : lowered.half_spaces)
       scene.faces.push_back({merger.add(half_space, reach, its_outline), number});
-    if (const auto* mesh = std::get_if<Mesh>(&primitive.shape); mesh && !instance.empty) {
+    if (const TriangleMesh* mesh = boundary(primitive.shape); mesh && !instance.empty) {
       const Affine local_from_mesh = local_from_world * instance.world_from_object;
       const Affine mesh_from_local = inverse(local_from_mesh);
       const Vec3 middle = mesh_from_local.point(lowered.extent.center);
-      for (const Plane& facet : mesh->surface->facets)
+      for (const Plane& facet : mesh->facets)
         scene.faces.push_back(
             {merger.add(facet_half_space(facet, middle, local_from_mesh, mesh_from_local), reach,
                         its_outline),
              number});
       unit.boundary = uint32_t(scene.boundaries.size());
-      scene.boundaries.emplace_back(*mesh->surface, local_from_mesh, unit.first_face);
+      scene.boundaries.emplace_back(*mesh, local_from_mesh, unit.first_face);
     }
     unit.face_count = uint32_t(scene.faces.size()) - unit.first_face;
     if (unit.face_count > 0) {

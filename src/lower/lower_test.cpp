@@ -8,7 +8,7 @@
 #include "lower/evaluate.h"
 #include "lower/half_space_table.h"
 #include "lower/primitive_faces.h"
-#include "model/facets.h"
+#include "shape/shape.h"
 #include "support/read_text.h"
 
 namespace whittle {

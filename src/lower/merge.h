@@ -12,7 +12,7 @@
 #include "base/box.h"
 #include "lower/half_space_table.h"
 #include "lower/scene.h"
-#include "model/extent.h"
+#include "shape/extent.h"
 
 namespace whittle {
 

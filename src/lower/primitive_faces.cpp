@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "model/facets.h"
+#include "shape/points.h"
 
 namespace whittle {
 namespace {
@@ -35,64 +36,17 @@ bool is_finite(const HalfSpace& h) {
          std::isfinite(h.f.c);
 }
 
-struct Builder {
-  const Affine& local_from_object;
-  Affine object_from_local;
-  LoweredPrimitive& out;
-
-  void plane(const Plane& p, Vec3 near_point) {
-    out.half_spaces.push_back(
-        facet_half_space(p, near_point, local_from_object, object_from_local));
-  }
-
-  void flat(const Shape& shape) {
-    const std::vector<Plane> planes = facet_planes(shape);
-    const std::vector<Vec3> vertices = facet_vertices(shape);
-    out.extent = flat_extent(vertices, planes, local_from_object);
-    Vec3 middle;
-    for (const Vec3& v : vertices) middle += v / double(vertices.size());
-    out.half_spaces.reserve(planes.size());
-    for (const Plane& p : planes) plane(p, middle);
-  }
-
-  void curved(const Shape& shape) {
-    out.outline = outline(shape);
-    out.extent = curved_extent(shape, out.outline, local_from_object);
-    for (Vec3& p : out.outline) p = local_from_object.point(p);
-  }
-
-  void sphere(const Sphere& s) {
-    out.is_ball = true;
-    K::Quadric f{{}, {}, {}, -s.r * s.r};
-    for (const Vec3& row : object_from_local.row) add_square(f, row, 1);
-    const double steepest = max_component(f.diag);
-    out.half_spaces.push_back(quadric_half_space(f, local_from_object.translation, steepest));
-  }
-
-  void cylinder(const Cylinder& c) {
-    const double z_low = c.center ? -c.h / 2 : 0, z_high = z_low + c.h, z_mid = z_low + c.h / 2;
-    // About the axis' middle: x^2 + y^2 - (r + s z)^2, r the mean radius.
-    const double r = (c.r1 + c.r2) / 2, s = (c.r2 - c.r1) / c.h;
-    const auto& row = object_from_local.row;
-    K::Quadric f{{}, {}, row[2] * (-r * s), -r * r};
-    add_square(f, row[0], 1);
-    add_square(f, row[1], 1);
-    const double steepest = max_component(f.diag);
-    add_square(f, row[2], -s * s);
-    const Vec3 middle{0, 0, z_mid};
-    out.half_spaces.push_back(quadric_half_space(f, local_from_object.point(middle), steepest));
-    plane({{0, 0, -1}, -z_low}, middle);
-    plane({{0, 0, 1}, z_high}, middle);
-    // A tip at an end is exactly there.
-    if (std::fabs(r) <= std::fabs(c.r2 - c.r1)) {
-      const double z_tip = c.r1 == 0   ? z_low
-                           : c.r2 == 0 ? z_high
-                                       : z_low + c.h * (c.r1 / (c.r1 - c.r2));
-      const Vec3 tip = local_from_object.point({0, 0, z_tip});
-      if (is_finite(tip)) out.tip = tip;
-    }
-  }
-};
+HalfSpace wall_half_space(const Wall& wall, const Affine& local_from_object,
+                          const Affine& object_from_local) {
+  const auto& row = object_from_local.row;
+  K::Quadric f{{}, {}, {}, wall.constant};
+  for (int i = 0; i < 3; ++i)
+    if (wall.squares[i] > 0) add_square(f, row[i], wall.squares[i]);
+  const double steepest = max_component(f.diag);
+  if (wall.squares.z < 0) add_square(f, row[2], wall.squares.z);
+  if (!wall.is_ball()) f.b = row[2] * wall.along;
+  return quadric_half_space(f, local_from_object.point(wall.center), steepest);
+}
 
 }  // namespace
 
@@ -109,20 +63,30 @@ void lower_primitive(const Shape& shape, const Affine& local_from_object, Lowere
   out.outline.clear();
   out.is_ball = false;
   out.tip.reset();
-  Builder builder{local_from_object, inverse(local_from_object), out};
-  if (const auto* mesh = std::get_if<Mesh>(&shape)) {
-    out.extent = mesh_extent(*mesh->surface, local_from_object);
+  if (const TriangleMesh* const mesh = boundary(shape)) {
+    out.extent = extent(shape, mesh->points, mesh->facets, local_from_object);
     return;
   }
-  if (is_flat(shape)) {
-    builder.flat(shape);
+  const Affine object_from_local = inverse(local_from_object);
+  const std::vector<Plane> planes = facet_planes(shape);
+  std::vector<Vec3> points = outline(shape);
+  out.extent = extent(shape, points, planes, local_from_object);
+  Vec3 middle;
+  if (const std::optional<Wall> curved = wall(shape)) {
+    middle = curved->center;
+    out.half_spaces.push_back(wall_half_space(*curved, local_from_object, object_from_local));
+    for (Vec3& p : points) p = local_from_object.point(p);
+    out.outline = std::move(points);
+    out.is_ball = curved->is_ball();
+    if (curved->tip) out.tip = local_from_object.point(*curved->tip);
+    if (out.tip && !is_finite(*out.tip)) out.tip.reset();
   } else {
-    builder.curved(shape);
-    if (const auto* sphere = std::get_if<Sphere>(&shape))
-      builder.sphere(*sphere);
-    else
-      builder.cylinder(std::get<Cylinder>(shape));
+    middle = middle_of(points);
   }
+  out.half_spaces.reserve(out.half_spaces.size() + planes.size());
+  for (const Plane& plane : planes)
+    out.half_spaces.push_back(
+        facet_half_space(plane, middle, local_from_object, object_from_local));
   const auto finite = [](const HalfSpace& h) { return is_finite(h); };
   if (!std::ranges::all_of(out.half_spaces, finite)) out.half_spaces.clear();
 }

@@ -6,8 +6,7 @@
 
 #include "base/affine.h"
 #include "lower/scene.h"
-#include "model/extent.h"
-#include "model/model.h"
+#include "shape/shape.h"
 
 namespace whittle {
 
@@ -15,10 +14,8 @@ namespace whittle {
 struct LoweredPrimitive {
   std::vector<HalfSpace> half_spaces;  ///< their conjunction is the primitive; empty: the empty set
   Extent extent;
-  std::vector<Vec3> outline;  ///< of its curved surface; empty if it has none
-  bool is_ball = false;       ///< that surface is a sphere's, not a cylinder's or cone's
-  /// Of that surface, the first half-space, if it is a cone whose tip is no farther from the
-  /// primitive's middle than the primitive is high.
+  std::vector<Vec3> outline;  ///< of its wall, the first half-space; empty if it has none
+  bool is_ball = false;       ///< the wall's, as the tip
   std::optional<Vec3> tip;
 };
 
@@ -27,10 +24,9 @@ struct LoweredPrimitive {
 HalfSpace facet_half_space(const Plane& facet, Vec3 middle, const Affine& local_from_object,
                            const Affine& object_from_local);
 
-/// Lowers one shape (not empty) under an invertible transform. The true sphere is one quadric,
-/// the true cylinder or cone a quadric and two planes, everything flat its facets; of a mesh, which
-/// may have millions, the extent alone. If numbers overflow there are no half-spaces. `out` is
-/// reused.
+/// Lowers one shape (not empty) under an invertible transform: its wall, if it has one, then its
+/// planes. Of what is inside of a boundary, which may have millions, the extent alone. If numbers
+/// overflow there are no half-spaces. `out` is reused.
 void lower_primitive(const Shape& shape, const Affine& local_from_object, LoweredPrimitive& out);
 
 }  // namespace whittle

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "model/triangle_mesh.h"
+#include "shape/triangle_mesh.h"
 
 namespace whittle {
 

@@ -1,7 +1,7 @@
 // Which triangles of a mesh lie in one plane.
 #pragma once
 
-#include "model/triangle_mesh.h"
+#include "shape/triangle_mesh.h"
 
 namespace whittle {
 

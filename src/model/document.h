@@ -12,9 +12,9 @@
 #include <variant>
 #include <vector>
 
-#include "model/facets.h"
 #include "model/model.h"
 #include "model/statement_counts.h"
+#include "shape/fragments.h"
 
 namespace whittle {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/result.h"
-#include "model/facets.h"
+#include "shape/shape.h"
 
 namespace whittle {
 
@@ -22,76 +22,13 @@ double longest_edge(const Bounds& bounds) {
   return coordinate > 0 ? coordinate : 1;
 }
 
-/// The half-space in world coordinates, with unit normal.
-Plane world_plane(const Halfspace& shape, const Affine& world_from_object) {
-  const Plane plane = facet_planes(shape).front();
-  const Affine object_from_world = inverse(world_from_object);
-  const Vec3 n = object_from_world.transposed_vector(plane.n);
-  const double l = length(n);
-  return {n / l, (plane.d - dot(plane.n, object_from_world.translation)) / l};
-}
-
-/// The box of a ball of radius r about `center` under a map: how far each row of it reaches.
-Box ball_box(const Affine& map, double r) {
-  const Vec3 reach = Vec3{length(map.row[0]), length(map.row[1]), length(map.row[2])} * r;
-  return {map.translation - reach, map.translation + reach};
-}
-
-/// The box of a circle of radius r about the z axis at height z, under a map.
-Box circle_box(const Affine& map, double r, double z) {
-  const Vec3 center = map.point({0, 0, z});
-  const auto reach = [&](const Vec3& row) { return r * std::hypot(row.x, row.y); };
-  const Vec3 half = {reach(map.row[0]), reach(map.row[1]), reach(map.row[2])};
-  return {center - half, center + half};
-}
-
-Box halfspace_box(const Plane& plane) {
-  Box box = Box::everything();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (plane.n[(axis + 1) % 3] != 0 || plane.n[(axis + 2) % 3] != 0) continue;
-    if (plane.n[axis] > 0) box.hi[axis] = plane.d;
-    if (plane.n[axis] < 0) box.lo[axis] = -plane.d;
-  }
-  return box;
-}
-
-/// Precondition: the shape is not empty and the map is neither singular nor non-finite.
-Box shape_box(const Shape& shape, const Affine& map) {
-  if (const auto* s = std::get_if<Halfspace>(&shape)) return halfspace_box(world_plane(*s, map));
-  if (is_flat(shape)) {
-    Box box;
-    for (const Vec3 p : facet_vertices(shape)) box.include(map.point(p));
-    return box;
-  }
-  if (const auto* s = std::get_if<Sphere>(&shape)) return ball_box(map, s->r);
-  const auto& s = std::get<Cylinder>(shape);
-  const double z = s.center ? -s.h / 2 : 0;
-  return unite(circle_box(map, s.r1, z), circle_box(map, s.r2, z + s.h));
-}
-
-/// A box around the bounded shape in its own coordinates, cheap rather than tight.
-Box outer_box(const Shape& shape) {
-  if (const auto* s = std::get_if<Sphere>(&shape)) return ball_box({}, s->r);
-  if (const auto* s = std::get_if<Cylinder>(&shape)) {
-    const double r = std::max(s->r1, s->r2);
-    return {{-r, -r, -s->h}, {r, r, s->h}};
-  }
-  return shape_box(shape, {});
-}
-
 /// Nothing can be computed of what reaches farther from the origin: squares of kUnboundedReach
 /// times this are about as large as numbers get.
 constexpr double kFarthest = 1e150;
 
 /// True if the shape reaches farther than that, or where it is cannot be told.
 bool overflows(const Shape& shape, const Affine& map) {
-  Box box;
-  if (const auto* s = std::get_if<Halfspace>(&shape)) {
-    const Plane plane = world_plane(*s, map);
-    box.include(plane.n * plane.d);
-  } else {
-    box = transform(map, outer_box(shape));
-  }
+  const Box box = finite_box(shape, map);
   const Vec3 reach = max(abs(box.lo), abs(box.hi));
   return !(reach.x <= kFarthest && reach.y <= kFarthest && reach.z <= kFarthest);
 }
@@ -281,12 +218,8 @@ Bounds bounds(const Model& model) {
   while (const Instance* instance = again.next()) {
     if (instance->empty) continue;
     const Shape& shape = model.primitives[instance->primitive].shape;
-    if (const auto* s = std::get_if<Halfspace>(&shape)) {
-      const Plane plane = world_plane(*s, instance->world_from_object);
-      reach.include(plane.n * plane.d);
-    } else {
-      reach = unite(reach, instance_box(model, *instance));
-    }
+    const Box own = instance_box(model, *instance);
+    reach = unite(reach, own.is_finite() ? own : finite_box(shape, instance->world_from_object));
   }
   return {.box = reach, .bounded = false};
 }

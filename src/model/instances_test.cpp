@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "model/facets.h"
+#include "base/degrees.h"
 
 namespace whittle {
 namespace {

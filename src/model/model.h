@@ -4,17 +4,14 @@
 // long as they are below nodes[i].end. Walks are loops over the array, so depth costs no stack.
 #pragma once
 
-#include <array>
 #include <compare>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "base/affine.h"
-#include "model/triangle_mesh.h"
+#include "shape/shape.h"
 
 namespace whittle {
 
@@ -24,47 +21,6 @@ struct SourceLocation {
   uint32_t column = 0;
   auto operator<=>(const SourceLocation&) const = default;
 };
-
-// The primitives, in their own coordinates. Sizes are model units. A size that is not positive and
-// finite makes the primitive empty (see is_empty): an empty set, not a mistake.
-
-struct Cube {
-  Vec3 size{1, 1, 1};
-  bool center = false;  ///< true: centred on the origin; false: lowest corner at the origin
-};
-
-struct Sphere {
-  double r = 1;
-  int facets = 0;  ///< 0: the true sphere; n >= 3: OpenSCAD's polyhedron of n meridians
-};
-
-/// The frustum between z = 0 and z = h (centred: -h/2 and h/2), radius r1 below and r2 above.
-struct Cylinder {
-  double h = 1, r1 = 1, r2 = 1;
-  bool center = false;
-  int facets = 0;  ///< 0: the true curve; n >= 3: a prism or pyramid of n sides
-};
-
-/// A convex polyhedron. `planes` are its facets, outward; empty planes mean an empty solid.
-struct Polyhedron {
-  std::vector<Vec3> points;
-  std::vector<std::vector<uint32_t>> faces;  ///< vertex loops, clockwise seen from outside
-  std::vector<Plane> planes;
-  double rise = 0;  ///< how far below its plane a corner of a facet may be; slivers apart
-};
-
-/// The points p with n.p <= d; n need not be unit. whittle's own extension of the dialect.
-struct Halfspace {
-  Vec3 n{0, 0, 1};
-  double d = 0;
-};
-
-/// Any solid with flat faces. Without a surface it is empty. Copies share the surface.
-struct Mesh {
-  std::shared_ptr<const TriangleMesh> surface;
-};
-
-using Shape = std::variant<Cube, Sphere, Cylinder, Polyhedron, Halfspace, Mesh>;
 
 struct Primitive {
   Shape shape;
@@ -127,9 +83,6 @@ struct Model {
   FileView view;
   std::optional<Drawing> drawing;  ///< if it is one
 };
-
-/// True if the shape is the empty set: a size that is not positive, or not finite (csg-format 2.6).
-bool is_empty(const Shape& shape);
 
 /// `file:line:column: ` + message, the form of every message about a file.
 std::string message_at(const std::string& file, SourceLocation where, const std::string& message);

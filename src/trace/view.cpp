@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "model/facets.h"
+#include "base/degrees.h"
 
 namespace whittle {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/result.h"
 #include "image/draw_cells.h"
 #include "image/shade.h"
-#include "model/facets.h"
+#include "shape/fragments.h"
 #include "subdivide/subdivide.h"
 #include "trace/vulkan/raster_settings.h"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "model/facets.h"
+#include "base/degrees.h"
 #include "model/instances.h"
 
 namespace whittle {

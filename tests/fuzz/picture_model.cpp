@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/affine.h"
-#include "model/facets.h"
+#include "base/degrees.h"
 
 // The first three bytes say how to look and where the model stands as a whole. Then follow
 // statements: a byte that says what comes, and what it needs, until the bytes or the primitives are

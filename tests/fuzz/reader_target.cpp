@@ -10,8 +10,9 @@
 #include "fuzz/target.h"
 #include "io/read.h"
 #include "lower/lower.h"
-#include "model/facets.h"
 #include "model/instances.h"
+#include "shape/fragments.h"
+#include "shape/shape.h"
 
 namespace whittle {
 namespace {

@@ -7,7 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "model/facets.h"
+#include "base/affine.h"
+#include "base/degrees.h"
 
 namespace whittle {
 

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <string>
 
+#include "base/degrees.h"
 #include "lower/lower.h"
-#include "model/facets.h"
 #include "subdivide/subdivide.h"
 #include "support/agreement.h"
 #include "support/instruction_sets.h"

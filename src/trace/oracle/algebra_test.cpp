@@ -1,7 +1,7 @@
 // Laws that hold for solids whatever they are, on random trees.
 #include <gtest/gtest.h>
 
-#include "model/facets.h"
+#include "base/degrees.h"
 #include "support/adapted_tracer.h"
 #include "support/agreement.h"
 #include "support/random_tree.h"

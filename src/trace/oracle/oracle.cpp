@@ -44,9 +44,8 @@ class OracleTracer final : public Tracer {
       ids_.push_back(model.primitives[instances_[leaf].primitive].id);
       if (instances_[leaf].empty) continue;
       leaves_.push_back(leaf);
-      const auto* mesh = std::get_if<Mesh>(&model.primitives[instances_[leaf].primitive].shape);
-      meshes_.push_back(mesh ? world_mesh(*mesh->surface, instances_[leaf].world_from_object)
-                             : WorldMesh{});
+      const TriangleMesh* mesh = boundary(model.primitives[instances_[leaf].primitive].shape);
+      meshes_.push_back(mesh ? world_mesh(*mesh, instances_[leaf].world_from_object) : WorldMesh{});
     }
   }
 

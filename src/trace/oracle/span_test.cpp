@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "model/extent.h"
-#include "model/facets.h"
-#include "model/polyhedron.h"
+#include "shape/build_planes.h"
+#include "shape/extent.h"
+#include "shape/shape.h"
 
 namespace whittle {
 namespace {

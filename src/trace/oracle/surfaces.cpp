@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "model/extent.h"
-#include "model/facets.h"
+#include "shape/extent.h"
+#include "shape/shape.h"
 
 namespace whittle {
 
@@ -89,26 +89,42 @@ class Namer {
       for (Vec3& p : solid.outline) p = world_from_object.point(p);
     }
     solids_.push_back(std::move(solid));
-    if (is_flat(shape)) {
-      for (const Plane& plane : facet_planes(shape)) add_plane(plane, world_from_object);
-    } else if (const auto* s = std::get_if<Sphere>(&shape)) {
+    std::visit(AddFaces{*this, world_from_object}, shape);
+  }
+
+  /// Gives the last solid its faces, as its shape is defined.
+  struct AddFaces {
+    Namer& namer;
+    const Affine& world_from_object;
+
+    void operator()(const Sphere& s) const {
+      if (s.facets > 0) return planes(s);
       Surface sphere;
       sphere.kind = Surface::Kind::kSphere;
-      sphere.radius = s->r;
-      add_face(sphere, {});
-    } else {
-      const auto& c = std::get<Cylinder>(shape);
+      sphere.radius = s.r;
+      namer.add_face(sphere, {});
+    }
+    void operator()(const Cylinder& c) const {
+      if (c.facets > 0) return planes(c);
       Surface side;
       side.kind = Surface::Kind::kCone;
       side.z0 = c.center ? -c.h / 2 : 0;
       side.z1 = side.z0 + c.h;
       side.radius = c.r1;
       side.slope = (c.r2 - c.r1) / c.h;
-      add_face(side, {});
-      add_plane({{0, 0, -1}, -side.z0}, world_from_object);
-      add_plane({{0, 0, 1}, side.z1}, world_from_object);
+      namer.add_face(side, {});
+      namer.add_plane({{0, 0, -1}, -side.z0}, world_from_object);
+      namer.add_plane({{0, 0, 1}, side.z1}, world_from_object);
     }
-  }
+    void operator()(const Cube& s) const { planes(s); }
+    void operator()(const Polyhedron& s) const { planes(s); }
+    void operator()(const Halfspace& s) const { planes(s); }
+    void operator()(const Mesh& s) const { planes(s); }
+
+    void planes(const auto& flat) const {
+      for (const Plane& plane : flat.facet_planes()) namer.add_plane(plane, world_from_object);
+    }
+  };
 
   void add_plane(const Plane& plane, const Affine& world_from_object) {
     Surface surface;

@@ -1,4 +1,4 @@
-#include "model/polyhedron.h"
+#include "shape/build_planes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "model/facets.h"
+#include "base/degrees.h"
+#include "shape/shape.h"
 
 namespace whittle {
 namespace {
@@ -206,7 +207,7 @@ TEST(BuildPlanes, SixDigitCornersAreAccepted) {
     const double r = *rc::gen::inRange(100, 100000) / 777.0;
     const Vec3 shift = Vec3{1, 0.7, -0.3} * (*rc::gen::inRange(-1000, 1000) / 999.0 * r);
     Polyhedron p;
-    for (const Vec3 v : facet_vertices(Sphere{.r = r, .facets = n})) {
+    for (const Vec3 v : outline(Sphere{.r = r, .facets = n})) {
       const Vec3 q = v + shift;
       p.points.push_back({six_digits(q.x), six_digits(q.y), six_digits(q.z)});
     }

@@ -1,12 +1,11 @@
-// Curves as OpenSCAD's polyhedra: how many facets, and exactly which.
+// How many facets OpenSCAD gives a curve, and where their corners are.
 //
 // The facts are OpenSCAD's (CurveDiscretizer, primitives.cc, degree_trig.cc), re-described.
 #pragma once
 
 #include <vector>
 
-#include "base/box.h"
-#include "model/model.h"
+#include "base/vec.h"
 
 namespace whittle {
 
@@ -32,21 +31,10 @@ int fragments(double r, FragmentSettings settings);
 inline constexpr int kMaxFacets = 2048;
 int choose_facets(double r, FragmentSettings settings, Curves curves);
 
-/// cos and sin of an angle in degrees, exact at the multiples of 30 and 45 where they are known.
-double cos_degrees(double degrees);
-double sin_degrees(double degrees);
+/// The corners of OpenSCAD's circle of radius 1 and n fragments, the first on +x.
+std::vector<Vec3> unit_circle(int n);
 
-/// The facets of a facetted sphere or cylinder (facets >= 3), of a cube or of a polyhedron, as
-/// outward planes in the shape's own coordinates. Precondition: not empty, and flat-faced.
-std::vector<Plane> facet_planes(const Shape& shape);
-
-/// The box of every facet under a map, in the order of facet_planes.
-std::vector<Box> facet_boxes(const Shape& shape, const Affine& map);
-
-/// The vertices of the same solids, for bounds.
-std::vector<Vec3> facet_vertices(const Shape& shape);
-
-/// True if the shape has only flat faces (so facet_planes applies); a half-space has one.
-bool is_flat(const Shape& shape);
+/// The directions of the middles of that circle's sides, the first between the first two corners.
+std::vector<Vec3> side_middles(int n);
 
 }  // namespace whittle

@@ -15,7 +15,7 @@
 // Every plane is held against every corner, but a tree of them answers for most. Faces in one plane
 // are found by going from neighbour to neighbour: what of a convex surface lies within a little of
 // a plane that touches it hangs together.
-#include "model/polyhedron.h"
+#include "shape/build_planes.h"
 
 #include <algorithm>
 #include <bit>
@@ -28,7 +28,7 @@
 #include <fmt/format.h>
 
 #include "base/box.h"
-#include "model/corner_tree.h"
+#include "shape/corner_tree.h"
 
 namespace whittle {
 

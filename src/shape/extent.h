@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <span>
-#include <vector>
 
 #include "base/box.h"
-#include "model/model.h"
-#include "model/triangle_mesh.h"
+#include "base/plane.h"
 
 namespace whittle {
 
@@ -20,24 +18,9 @@ struct Extent {
                       ///< above twice the true one's for squashed curves; infinite for a half-space
 };
 
-/// Points that stand for the surface of a shape, in its own coordinates: the corners of a flat one,
-/// 26 points spread over a sphere, three rings of kRingPoints on the side of a cylinder or cone
-/// (without its apex). None for a half-space.
-std::vector<Vec3> outline(const Shape& shape);
-inline constexpr size_t kRingPoints = 8;
-
-/// Precondition: the shape is not empty and the map not singular.
-Extent extent(const Shape& shape, const Affine& map);
-
-/// The same for a curved shape whose outline (own coordinates) is at hand.
-Extent curved_extent(const Shape& shape, std::span<const Vec3> outline, const Affine& map);
-
-/// The same for a flat shape whose outline and facet planes (own coordinates) are at hand.
-Extent flat_extent(std::span<const Vec3> outline, std::span<const Plane> planes, const Affine& map);
-
-/// The same for a mesh. Its width is twice its volume over its area: the thickness of what is thin
-/// everywhere.
-Extent mesh_extent(const TriangleMesh& mesh, const Affine& map);
+/// Of the conjunction of planes whose corners are given; without corners it is a half-space. The
+/// map is not singular.
+Extent flat_extent(std::span<const Vec3> corners, std::span<const Plane> planes, const Affine& map);
 
 /// The same seen from a region: what is larger than the region's ball counts as that ball.
 /// An empty region changes nothing.

@@ -1,4 +1,4 @@
-#include "model/corner_tree.h"
+#include "shape/corner_tree.h"
 
 #include <limits>
 #include <utility>

@@ -5,15 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/vec.h"
+#include "base/plane.h"
 
 namespace whittle {
-
-/// A plane n.p = d with unit normal; as a half-space it holds the points with n.p <= d.
-struct Plane {
-  Vec3 n;
-  double d = 0;
-};
 
 /// The solid is where the winding number of the triangles is not zero, regularised. Triangles may
 /// overlap and cut one another, but every edge is closed: it is run through as often one way as the
@@ -30,5 +24,8 @@ struct TriangleMesh {
   std::vector<Plane> facets;
   double rise = 0;  ///< corners are no farther than this from the planes of their triangles
 };
+
+/// Negative if the triangles are turned inward.
+double volume(const TriangleMesh& mesh);
 
 }  // namespace whittle

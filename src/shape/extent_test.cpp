@@ -1,8 +1,10 @@
-#include "model/extent.h"
+#include "shape/extent.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "shape/shape.h"
 
 namespace whittle {
 namespace {

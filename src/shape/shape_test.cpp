@@ -1,16 +1,15 @@
-#include "model/facets.h"
+#include "shape/shape.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
-#include <numbers>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "model/polyhedron.h"
+#include "shape/build_planes.h"
 
 namespace whittle {
 namespace {
@@ -31,65 +30,6 @@ int64_t on_plane(const Plane& plane, const std::vector<Vec3>& points, double sla
       points, [&](Vec3 p) { return std::fabs(dot(plane.n, p) - plane.d) <= slack; });
 }
 
-TEST(Fragments, FollowOpenScadsRule) {
-  EXPECT_EQ(fragments(10, {.fn = 8}), 8);
-  EXPECT_EQ(fragments(10, {.fn = 1}), 3);
-  EXPECT_EQ(fragments(10, {.fn = 7.2}), 8) << "fractions round up";
-  EXPECT_EQ(fragments(10, {.fn = 0, .fa = 12, .fs = 2}), 30) << "$fa decides";
-  EXPECT_EQ(fragments(5, {.fn = 0, .fa = 12, .fs = 2}), 16) << "$fs decides: ceil(10 pi / 2)";
-  EXPECT_EQ(fragments(0.5, {.fn = 0, .fa = 12, .fs = 2}), 5) << "never below 5";
-  EXPECT_EQ(fragments(10, {.fn = -4, .fa = 12, .fs = 2}), 30) << "negative $fn is none";
-}
-
-TEST(Fragments, SurviveAnyNumbers) {
-  EXPECT_EQ(fragments(1e-7, {.fn = 100}), 3) << "below OpenSCAD's smallest length";
-  EXPECT_EQ(fragments(10, {.fn = kInf}), 3);
-  EXPECT_EQ(fragments(10, {.fn = kNan}), 3);
-  EXPECT_EQ(fragments(10, {.fn = 1e300}), std::numeric_limits<int>::max());
-  EXPECT_EQ(fragments(1e300, {.fn = 0, .fa = 1e-300, .fs = 0}), 36000) << "$fa is at least 0.01";
-}
-
-TEST(ChooseFacets, HonoursTheChoice) {
-  const FragmentSettings eight{.fn = 8}, none{.fn = 0};
-  EXPECT_EQ(choose_facets(10, eight, Curves::kAuto), 8);
-  EXPECT_EQ(choose_facets(10, none, Curves::kAuto), 0);
-  EXPECT_EQ(choose_facets(10, none, Curves::kFacets), 30);
-  EXPECT_EQ(choose_facets(10, eight, Curves::kSmooth), 0);
-  EXPECT_EQ(choose_facets(10, none, Curves::kOpenscad2021), 30);
-  EXPECT_EQ(choose_facets(10, {.fn = 1e9}, Curves::kAuto), 0) << "finer than the tolerance";
-}
-
-TEST(ChooseFacets, CutsOffFractionsAsOpenscad2021Does) {
-  const double kFn[] = {0.5, 2.9, 3.2, 4.7, 4.999, 5.0001, 7.5, kInf, kNan};
-  const int kCutOff[] = {3, 3, 3, 4, 4, 5, 7, 3, 3}, kRoundedUp[] = {3, 3, 4, 5, 5, 6, 8, 3, 3};
-  for (size_t i = 0; i < std::size(kFn); ++i) {
-    EXPECT_EQ(choose_facets(3, {.fn = kFn[i]}, Curves::kOpenscad2021), kCutOff[i]) << kFn[i];
-    EXPECT_EQ(choose_facets(3, {.fn = kFn[i]}, Curves::kFacets), kRoundedUp[i]) << kFn[i];
-  }
-}
-
-TEST(Degrees, ExactWhereKnown) {
-  for (const double turn : {-720.0, 0.0, 360.0}) {
-    EXPECT_EQ(sin_degrees(turn + 30), 0.5);
-    EXPECT_EQ(sin_degrees(turn + 210), -0.5);
-    EXPECT_EQ(cos_degrees(turn + 60), 0.5);
-    EXPECT_EQ(cos_degrees(turn + 90), 0.0);
-    EXPECT_EQ(cos_degrees(turn + 270), 0.0);
-    EXPECT_EQ(cos_degrees(turn + 180), -1.0);
-    EXPECT_EQ(sin_degrees(turn + 180), 0.0);
-    EXPECT_EQ(sin_degrees(turn + 45), cos_degrees(turn + 45));
-    EXPECT_EQ(sin_degrees(turn + 120), std::numbers::sqrt3 / 2);
-  }
-}
-
-TEST(Degrees, AgreeWithRadians) {
-  EXPECT_TRUE(rc::check([] {
-    const double degrees = *rc::gen::inRange(-100000000, 100000000) / 1e5;
-    RC_ASSERT(std::fabs(sin_degrees(degrees) - std::sin(degrees * std::numbers::pi / 180)) < 1e-12);
-    RC_ASSERT(std::fabs(cos_degrees(degrees) - std::cos(degrees * std::numbers::pi / 180)) < 1e-12);
-  }));
-}
-
 TEST(FacetPlanes, CubeStandsWhereItShould) {
   const auto corner = facet_planes(Cube{.size = {1, 2, 3}, .center = false});
   EXPECT_EQ(corner.size(), 6u);
@@ -104,7 +44,7 @@ TEST(FacetPlanes, SphereHasOpenScadsRings) {
   // Four meridians: two rings at 45 and 135 degrees, one band between them.
   const Sphere sphere{.r = 2, .facets = 4};
   const auto planes = facet_planes(sphere);
-  const auto points = facet_vertices(sphere);
+  const auto points = outline(sphere);
   EXPECT_EQ(planes.size(), 4u + 2u);
   EXPECT_EQ(points.size(), 8u);
   for (const Vec3 p : points) {
@@ -123,7 +63,7 @@ TEST(FacetPlanes, EvenSphereIsSymmetricToTheLastBit) {
 
 TEST(FacetPlanes, ConeHasNoLid) {
   EXPECT_EQ(facet_planes(Cylinder{.h = 1, .r1 = 1, .r2 = 0, .facets = 5}).size(), 6u);
-  EXPECT_EQ(facet_vertices(Cylinder{.h = 1, .r1 = 1, .r2 = 0, .facets = 5}).size(), 6u);
+  EXPECT_EQ(outline(Cylinder{.h = 1, .r1 = 1, .r2 = 0, .facets = 5}).size(), 6u);
   EXPECT_EQ(facet_planes(Cylinder{.h = 1, .r1 = 1, .r2 = 2, .facets = 5}).size(), 7u);
 }
 
@@ -154,7 +94,7 @@ TEST(FacetPlanes, AndVerticesAreTheSameSolid) {
         Cylinder{.h = h, .r1 = r2, .r2 = r1, .center = center, .facets = n},
         Cube{.size = {r2, h, 1}, .center = center});
     const auto planes = facet_planes(shape);
-    const auto points = facet_vertices(shape);
+    const auto points = outline(shape);
     for (const Plane& plane : planes) {
       RC_ASSERT(std::fabs(length(plane.n) - 1) < 1e-14);
       RC_ASSERT(on_plane(plane, points, 1e-12) >= 3);
@@ -183,10 +123,6 @@ TEST(IsEmpty, SizesThatAreNone) {
   EXPECT_TRUE(is_empty(Halfspace{.n = {0, 0, 1}, .d = kInf}));
 }
 
-TEST(MessageAt, NamesThePlace) {
-  EXPECT_EQ(message_at("a.csg", {3, 14}, "no."), "a.csg:3:14: no.");
-}
-
 // The planes of a ball that stands where six digits are coarse are off its corners, and each facet
 // is where the others leave something of its plane: every way out of the ball ends in a facet.
 TEST(Facets, BoxesHoldTheFacetsOfCoarsePolyhedra) {
@@ -194,7 +130,7 @@ TEST(Facets, BoxesHoldTheFacetsOfCoarsePolyhedra) {
     const Vec3 center = Vec3{1, 0.7, -0.9} * offset;
     constexpr int kMeridians = 24, kRings = kMeridians / 2;
     Polyhedron p;
-    for (const Vec3 v : facet_vertices(Sphere{.r = 6, .facets = kMeridians})) {
+    for (const Vec3 v : outline(Sphere{.r = 6, .facets = kMeridians})) {
       const Vec3 q = center + Vec3{v.x, v.y * 0.8 - v.z * 0.6, v.y * 0.6 + v.z * 0.8};
       Vec3 printed;
       for (int i = 0; i < 3; ++i) {
@@ -215,8 +151,7 @@ TEST(Facets, BoxesHoldTheFacetsOfCoarsePolyhedra) {
       }
     }
     ASSERT_EQ(build_planes(p).refusal, "") << offset;
-    const Affine map{.row = {{1, 0.2, 0}, {0, 2, 0.3}, {0.1, 0, 0.5}}, .translation = {1, 2, 3}};
-    const std::vector<Box> boxes = facet_boxes(p, map);
+    const std::vector<Box> boxes = facet_boxes(p);
     ASSERT_EQ(boxes.size(), p.planes.size());
     constexpr int kWays = 20000;
     for (int i = 0; i < kWays; ++i) {
@@ -230,7 +165,7 @@ TEST(Facets, BoxesHoldTheFacetsOfCoarsePolyhedra) {
         const double t = (p.planes[f].d - dot(p.planes[f].n, center)) / slope;
         if (t < nearest) nearest = t, facet = f;
       }
-      const Vec3 end = map.point(center + way * nearest);
+      const Vec3 end = center + way * nearest;
       const Vec3 margin = Vec3{1, 1, 1} * (0.05 * boxes[facet].diagonal());  // as lower() adds it
       const Box box{boxes[facet].lo - margin, boxes[facet].hi + margin};
       ASSERT_TRUE(box.contains(end)) << offset << " way " << i << " facet " << facet;
@@ -239,14 +174,13 @@ TEST(Facets, BoxesHoldTheFacetsOfCoarsePolyhedra) {
 }
 
 TEST(Facets, BoxesHoldTheFacets) {
-  const Affine map{.row = {{1, 0.2, 0}, {0, 2, 0.3}, {0.1, 0, 0.5}}, .translation = {1, 2, 3}};
   for (const Shape& shape :
        {Shape(Sphere{3, 5}), Shape(Sphere{3, 8}), Shape(Sphere{2, 31}),
         Shape(Cylinder{4, 2, 1, false, 7}), Shape(Cylinder{4, 2, 0, true, 12}),
         Shape(Cylinder{4, 0, 2, true, 9}), Shape(Cylinder{4, 2, 1, false, 2500}), Shape(Cube{})}) {
     const std::vector<Plane> planes = facet_planes(shape);
-    const std::vector<Vec3> vertices = facet_vertices(shape);
-    const std::vector<Box> boxes = facet_boxes(shape, map);
+    const std::vector<Vec3> vertices = outline(shape);
+    const std::vector<Box> boxes = facet_boxes(shape);
     ASSERT_EQ(boxes.size(), planes.size());
     for (size_t f = 0; f < planes.size(); ++f) {
       int corners = 0;
@@ -254,8 +188,8 @@ TEST(Facets, BoxesHoldTheFacets) {
       for (const Vec3 v : vertices) {
         if (std::fabs(planes[f].d - dot(planes[f].n, v)) > 1e-9) continue;
         ++corners;
-        just.include(map.point(v));
-        EXPECT_TRUE(boxes[f].contains(map.point(v)));
+        just.include(v);
+        EXPECT_TRUE(boxes[f].contains(v));
       }
       EXPECT_GE(corners, 3);
       EXPECT_LT(boxes[f].diagonal(), 1.1 * just.diagonal());
