@@ -82,6 +82,7 @@ std::vector<Plane> Cylinder::facet_planes() const {
 std::vector<Vec3> Cylinder::outline() const {
   std::vector<Vec3> points;
   if (facets == 0) {
+    points.reserve(3 * kRingPoints);
     for (const double f : {0.0, 0.5, 1.0}) {
       const double r = r1 + f * (r2 - r1);
       if (!(r > 0)) continue;
