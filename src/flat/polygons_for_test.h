@@ -48,14 +48,6 @@ inline bool is_closed(const TriangleMesh& mesh) {
   return true;
 }
 
-inline double volume(const TriangleMesh& mesh) {
-  double six_times = 0;
-  for (const auto& [corners, facet] : mesh.triangles)
-    six_times +=
-        dot(mesh.points[corners[0]], cross(mesh.points[corners[1]], mesh.points[corners[2]]));
-  return six_times / 6;
-}
-
 /// A closed line of random corners, which as a rule crosses itself. On a grid corners meet and
 /// edges lie on one another.
 inline rc::Gen<Contour> random_contour(int most_corners, int extent, double step) {

@@ -35,15 +35,6 @@ RawMesh turned(RawMesh raw) {
   return raw;
 }
 
-double volume(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles)
-    sum += dot(mesh.points[t.corners[0]],
-               cross(mesh.points[t.corners[1]], mesh.points[t.corners[2]])) /
-           6;
-  return sum;
-}
-
 void expect_closed(const TriangleMesh& mesh) {
   std::map<std::pair<uint32_t, uint32_t>, int> edges;
   for (const auto& t : mesh.triangles)

@@ -13,15 +13,6 @@ namespace {
 
 constexpr size_t kMany = 1000;
 
-double volume(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles)
-    sum += dot(mesh.points[t.corners[0]],
-               cross(mesh.points[t.corners[1]], mesh.points[t.corners[2]])) /
-           6;
-  return sum;
-}
-
 TEST(HeightMap, Text) {
   const Result<RawMesh> raw = read_height_map("# c\n1 2 3\n4 5\n\n7 8 9 10\n", {}, kMany);
   ASSERT_TRUE(raw);

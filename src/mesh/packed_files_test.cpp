@@ -30,10 +30,7 @@ Measure measure(std::string_view content, std::string_view name) {
   Measure measure;
   if (!raw) return measure;
   const TriangleMesh mesh = close_mesh(*raw, 6).mesh;
-  for (const auto& t : mesh.triangles)
-    measure.volume += dot(mesh.points[t.corners[0]],
-                          cross(mesh.points[t.corners[1]], mesh.points[t.corners[2]])) /
-                      6;
+  measure.volume = volume(mesh);
   for (const Vec3& p : mesh.points) measure.box.include(p);
   return measure;
 }

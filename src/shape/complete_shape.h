@@ -44,9 +44,9 @@ concept FlatFaced = requires(const S& shape) {
 };
 
 template <class S>
-concept CompleteShape = (Curved<S> || FlatFaced<S>)&&requires(const S& shape, const Affine& map,
-                                                              std::span<const Vec3> outline,
-                                                              std::span<const Plane> planes) {
+concept CompleteShape = requires(const S& shape, const Affine& map, std::span<const Vec3> outline,
+                                 std::span<const Plane> planes) {
+  requires Curved<S> || FlatFaced<S>;
   /// For people and scripts: OpenSCAD's word, where it has one.
   { S::kName } -> std::convertible_to<std::string_view>;
   /// Its faces lie where a few numbers say, and not where the digits of corners leave them.

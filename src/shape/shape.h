@@ -15,8 +15,10 @@
 
 namespace whittle {
 
-template <CompleteShape... S>
-using OneOf = std::variant<S...>;
+template <CompleteShape S>
+using Complete = S;  ///< so the compiler names the shape and what it lacks
+template <class... S>
+using OneOf = std::variant<Complete<S>...>;
 
 using Shape = OneOf<Cube, Sphere, Cylinder, Polyhedron, Halfspace, Mesh>;
 
