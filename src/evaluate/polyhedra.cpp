@@ -60,8 +60,7 @@ void warn_of(const Built& built, const Shape& shape, SourceLocation where, Warni
   if (built.open_edges > 0) {
     const Vec3 at = built.first_open;
     const std::string what = "a polyhedron is not closed";
-    const auto* const mesh = std::get_if<Mesh>(&shape);
-    const std::string_view part = mesh && mesh->surface ? "the open part of it" : "it";
+    const std::string_view part = is_empty(shape) ? "it" : "the open part of it";
     warnings.add_unsupported(
         what, where,
         fmt::format("polyhedron: {} edges are open, the first at [{:.6g}, {:.6g}, {:.6g}]; {} is "

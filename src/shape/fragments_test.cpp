@@ -8,8 +8,8 @@
 namespace whittle {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+constexpr double kEndless = std::numeric_limits<double>::infinity();
 
 TEST(Fragments, FollowOpenScadsRule) {
   EXPECT_EQ(fragments(10, {.fn = 8}), 8);
@@ -23,8 +23,8 @@ TEST(Fragments, FollowOpenScadsRule) {
 
 TEST(Fragments, SurviveAnyNumbers) {
   EXPECT_EQ(fragments(1e-7, {.fn = 100}), 3) << "below OpenSCAD's smallest length";
-  EXPECT_EQ(fragments(10, {.fn = kInf}), 3);
-  EXPECT_EQ(fragments(10, {.fn = kNan}), 3);
+  EXPECT_EQ(fragments(10, {.fn = kEndless}), 3);
+  EXPECT_EQ(fragments(10, {.fn = kNotANumber}), 3);
   EXPECT_EQ(fragments(10, {.fn = 1e300}), std::numeric_limits<int>::max());
   EXPECT_EQ(fragments(1e300, {.fn = 0, .fa = 1e-300, .fs = 0}), 36000) << "$fa is at least 0.01";
 }
@@ -40,7 +40,7 @@ TEST(ChooseFacets, HonoursTheChoice) {
 }
 
 TEST(ChooseFacets, CutsOffFractionsAsOpenscad2021Does) {
-  const double kFn[] = {0.5, 2.9, 3.2, 4.7, 4.999, 5.0001, 7.5, kInf, kNan};
+  const double kFn[] = {0.5, 2.9, 3.2, 4.7, 4.999, 5.0001, 7.5, kEndless, kNotANumber};
   const int kCutOff[] = {3, 3, 3, 4, 4, 5, 7, 3, 3}, kRoundedUp[] = {3, 3, 4, 5, 5, 6, 8, 3, 3};
   for (size_t i = 0; i < std::size(kFn); ++i) {
     EXPECT_EQ(choose_facets(3, {.fn = kFn[i]}, Curves::kOpenscad2021), kCutOff[i]) << kFn[i];

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <memory>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -195,6 +197,76 @@ TEST(Facets, BoxesHoldTheFacets) {
       EXPECT_LT(boxes[f].diagonal(), 1.1 * just.diagonal());
     }
   }
+}
+
+/// Three edges of length 2 along the axes.
+TriangleMesh corner_mesh() {
+  const double s = 1 / std::sqrt(3.0);
+  return {.points = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}},
+          .triangles = {{{0, 2, 1}, 0}, {{0, 1, 3}, 1}, {{0, 3, 2}, 2}, {{1, 2, 3}, 3}},
+          .facets = {{{0, 0, -1}, 0}, {{0, -1, 0}, 0}, {{-1, 0, 0}, 0}, {{s, s, s}, 2 * s}}};
+}
+
+TEST(Facets, BoxesOfAMeshAreThoseOfItsTriangles) {
+  const Mesh mesh{std::make_shared<const TriangleMesh>(corner_mesh())};
+  const std::vector<Box> boxes = facet_boxes(mesh);
+  ASSERT_EQ(boxes.size(), 4u);
+  EXPECT_EQ(boxes[0], (Box{{0, 0, 0}, {2, 2, 0}}));
+  EXPECT_EQ(boxes[1], (Box{{0, 0, 0}, {2, 0, 2}}));
+  EXPECT_EQ(boxes[2], (Box{{0, 0, 0}, {0, 2, 2}}));
+  EXPECT_EQ(boxes[3], (Box{{0, 0, 0}, {2, 2, 2}}));
+}
+
+TEST(Volume, CountsWithTheTurnOfTheTriangles) {
+  TriangleMesh mesh = corner_mesh();
+  for (Vec3& p : mesh.points) p += Vec3{5, -7, 9};
+  EXPECT_DOUBLE_EQ(volume(mesh), 4.0 / 3);
+  for (TriangleMesh::Triangle& t : mesh.triangles) std::swap(t.corners[0], t.corners[1]);
+  EXPECT_DOUBLE_EQ(volume(mesh), -4.0 / 3);
+  EXPECT_EQ(volume({}), 0);
+}
+
+TEST(FiniteBox, HoldsWhatIsBounded) {
+  const Affine map{.row = {{1, 0.2, 0}, {0, 2, 0.3}, {0.1, 0, 0.5}}, .translation = {1, 2, 3}};
+  const Shape shapes[] = {Cube{{1, 2, 3}, true},
+                          Sphere{3, 0},
+                          Sphere{3, 5},
+                          Cylinder{4, 2, 1, true, 0},
+                          Cylinder{4, 0, 2, false, 7},
+                          Mesh{std::make_shared<const TriangleMesh>(corner_mesh())}};
+  for (const Shape& shape : shapes) {
+    const Box outer = finite_box(shape, map), box = shape_box(shape, map);
+    EXPECT_EQ(unite(outer, box), outer) << kShapeNames[shape.index()];
+    EXPECT_LT(outer.diagonal(), 3 * box.diagonal()) << kShapeNames[shape.index()];
+  }
+}
+
+TEST(FiniteBox, OfAHalfSpaceIsThePointNextToTheOrigin) {
+  const Box box = finite_box(Halfspace{.n = {3, 0, 4}, .d = 10}, scaling({2, 2, 2}));
+  EXPECT_EQ(box.lo, box.hi);
+  EXPECT_NEAR(length(box.lo - Vec3{2.4, 0, 3.2}), 0, 1e-15);
+}
+
+TEST(Wall, IsZeroOnTheOutlineAndNegativeInside) {
+  const Shape shapes[] = {Sphere{.r = 3}, Cylinder{.h = 4, .r1 = 2, .r2 = 2, .center = true},
+                          Cylinder{.h = 4, .r1 = 2, .r2 = 0.5}, Cylinder{.h = 4, .r1 = 0, .r2 = 1}};
+  for (const Shape& shape : shapes) {
+    const std::optional<Wall> surface = wall(shape);
+    ASSERT_TRUE(surface);
+    const auto value = [&](Vec3 p) {
+      const Vec3 q = p - surface->center, s = surface->squares;
+      return s.x * q.x * q.x + s.y * q.y * q.y + s.z * q.z * q.z + 2 * surface->along * q.z +
+             surface->constant;
+    };
+    EXPECT_LT(value(surface->center), 0);
+    for (const Vec3 p : outline(shape)) EXPECT_NEAR(value(p), 0, 1e-14);
+    if (surface->tip) {
+      EXPECT_NEAR(value(*surface->tip), 0, 1e-14);
+    }
+  }
+  EXPECT_EQ(wall(Cylinder{.h = 4, .r1 = 0, .r2 = 1})->tip, (Vec3{0, 0, 0}));
+  EXPECT_FALSE(wall(Cylinder{.h = 4, .r1 = 2, .r2 = 2})->tip) << "a cylinder has none";
+  EXPECT_FALSE(wall(Sphere{.r = 3, .facets = 8})) << "facets are flat";
 }
 
 }  // namespace
