@@ -126,6 +126,10 @@ bool Boundary::reaches(const Triangle& triangle, Vec3 center, Vec3 half) const {
     if (std::min(a, std::min(b, c)) > half[axis] || std::max(a, std::max(b, c)) < -half[axis])
       return false;
   }
+  const auto is_in_box = [&](Vec3 q) {
+    return std::fabs(q.x) <= half.x && std::fabs(q.y) <= half.y && std::fabs(q.z) <= half.z;
+  };
+  if (is_in_box(v[0]) || is_in_box(v[1]) || is_in_box(v[2])) return true;
   const Vec3 edges[3] = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
   const Vec3 n = cross(edges[0], edges[1]);
   if (std::fabs(dot(n, v[0])) > dot(abs(n), half)) return false;
@@ -147,18 +151,23 @@ bool Boundary::reaches(const Triangle& triangle, Vec3 center, Vec3 half) const {
 /// By how much the winding number grows on the way down through a triangle above p; 0 if the way up
 /// from p does not meet it.
 int Boundary::crosses_above(const Triangle& triangle, Vec3 p) const {
+  const Vec3 a = points_[triangle.corners[0]], b = points_[triangle.corners[1]],
+             c = points_[triangle.corners[2]];
+  const auto are_beside = [](double u, double v, double w, double at) {
+    return (u < at && v < at && w < at) || (u > at && v > at && w > at);
+  };
+  if (are_beside(a.x, b.x, c.x, p.x) || are_beside(a.y, b.y, c.y, p.y) ||
+      (a.z < p.z && b.z < p.z && c.z < p.z))
+    return 0;
   int side = 0;
   for (size_t e = 0; e < 3; ++e) {
-    const uint32_t a = triangle.corners[e], b = triangle.corners[(e + 1) % 3];
+    const uint32_t i = triangle.corners[e], j = triangle.corners[(e + 1) % 3];
     // Both triangles at an edge ask the same question about it.
-    const int s = a < b ? side_of(points_[a], points_[b], p) : -side_of(points_[b], points_[a], p);
+    const int s = i < j ? side_of(points_[i], points_[j], p) : -side_of(points_[j], points_[i], p);
     if (s == 0 || (e > 0 && s != side)) return 0;
     side = s;
   }
-  const Vec3 a = points_[triangle.corners[0]], b = points_[triangle.corners[1]],
-             c = points_[triangle.corners[2]];
   if (std::min(a.z, std::min(b.z, c.z)) <= p.z) {
-    if (std::max(a.z, std::max(b.z, c.z)) < p.z) return 0;
     // Seen from above the triangle runs counter-clockwise if side is 1: its normal points up.
     const Vec3 n = cross(b - a, c - a);
     if (dot(n, p - a) * side >= 0) return 0;

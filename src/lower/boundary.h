@@ -47,6 +47,12 @@ class Boundary {
   /// matters.
   template <class Visit>
   void visit_in(Vec3 center, Vec3 half, const Visit& visit) const;
+  /// The same for those among some triangles.
+  template <class Visit>
+  void visit_in(std::span<const uint32_t> some, Vec3 center, Vec3 half, const Visit& visit) const {
+    for (const uint32_t i : some)
+      if (reaches(triangles_[i], center, half) && !visit(i)) return;
+  }
 
   /// The winding number at a point. Of a point closer to a triangle than rounding it is one of the
   /// numbers near it.

@@ -41,6 +41,8 @@ std::vector<TriangleMesh> meshes() {
   };
 }
 
+constexpr size_t kPrintedTorus = 5;
+
 /// The distance from the nearest plane of a triangle that comes as near as that.
 bool is_near_surface(const Scene& scene, Vec3 p, double distance) {
   bool near = false;
@@ -75,8 +77,11 @@ TEST_P(LocalBspOf, RandomCellsSaysWhatTheWindingNumberSays) {
       const double at = cell.lo[k % 3] + cut * cell.size()[k % 3];
       (share(random) < 0.5 ? cell.lo : cell.hi)[k % 3] = at;
     }
+    // Where faces part by little more than digits, a thin part of a crowd may be mislabelled.
     // Crowds are split before anything is made of them.
-    if (bsp.count(scene->units[0], CellBox(cell, 0)) == LocalBsp::kTooMany) continue;
+    if (GetParam() == kPrintedTorus &&
+        bsp.count(scene->units[0], CellBox(cell, 0)) == LocalBsp::kTooMany)
+      continue;
     const Truth truth = simplifier.simplify(scene->formula, cell, Expand::kAll, formula);
     varied += truth == Truth::kVaries;
     for (const Token token : formula) EXPECT_NE(token.kind(), TokenKind::kUnit);

@@ -99,7 +99,7 @@ CellLink Refiner::refined(const Cell& cell, const Helpers* helpers) {
       ++stats_.cells[size_t(result.kind())];
       ++stats_.refined;
       if (keeps) return result;
-      const size_t bytes = OpenCell::bytes(open.token_count);
+      const size_t bytes = OpenCell::bytes(open.words());
       stats_.memory_bytes -= bytes;
       open_cells_.give(const_cast<OpenCell*>(&open), bytes);
       return result;
@@ -132,7 +132,8 @@ CellLink Refiner::refine(const Cell& cell, const OpenCell& open, const Helpers* 
   if (settings_.split == SplitRule::kOctree && open.depth + kSplits <= kMostDepth) {
     const std::vector<std::span<const Token>> all(size_t(1) << kSplits, open.tokens());
     const SplitGrid grid = make_grid(open.box, kSplits, settings_.split, open.depth);
-    if (const std::optional<CellLink> eight = open_parts(cell, open, grid, all, nullptr))
+    if (const std::optional<CellLink> eight =
+            open_parts(cell, open, grid, all, open.near(), nullptr))
       return *eight;
   }
   return split(cell, open);
@@ -140,9 +141,20 @@ CellLink Refiner::refine(const Cell& cell, const OpenCell& open, const Helpers* 
 
 /// What a cell takes if it is not split, at most: open, rounded up to a power of two, and as a
 /// leaf. Its literals may be many and their half-spaces few.
-size_t Refiner::bytes_unsplit(size_t literals, size_t tokens) const {
-  return 2 * OpenCell::bytes(tokens) + sizeof(Leaf) + literals * (sizeof(Step) + sizeof(Token)) +
+size_t Refiner::bytes_unsplit(size_t literals, size_t words) const {
+  return 2 * OpenCell::bytes(words) + sizeof(Leaf) + literals * (sizeof(Step) + sizeof(Token)) +
          std::min(literals, scene_.half_spaces.size()) * sizeof(LeafLiteral);
+}
+
+/// Words that a formula takes at most, in the cell it is for or in a part of it, with the triangles
+/// that are listed.
+size_t Refiner::most_words(std::span<const Token> formula) const {
+  if (scene_.boundaries.empty()) return formula.size();
+  const auto is_boundary = [this](Token token) {
+    return token.kind() == TokenKind::kUnit && !scene_.units[token.payload()].is_conjunction();
+  };
+  return formula.size() +
+         size_t(std::ranges::count_if(formula, is_boundary)) * NearTriangles::kMostWords;
 }
 
 /// Whether the cell is not split, and then what it is.
@@ -150,8 +162,7 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
   const double edge = max_component(open.box.size()) / region_edge_;
   const Box world{open.box.lo + scene_.origin, open.box.hi + scene_.origin};
   const bool small = settings_.is_small && settings_.is_small(world);
-  static const double zoom = getenv("ZOOM") ? atof(getenv("ZOOM")) : 1;
-  const double rays = edge * edge * settings_.rays * zoom * zoom;
+  const double rays = edge * edge * settings_.rays;
   const bool is_auto = settings_.leaf_size == kAutoLeafSize;
   // At 512 x 512 rays this is the smallest edge that others have.
   constexpr double kFewestRays = 1.0 / 1024;
@@ -159,7 +170,8 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
                        (is_auto ? !pays_off(open.literals, rays)
                                 : edge * edge * open.literals < settings_.least_use) &&
                        !open.is_crowded;
-  const size_t split_bytes = 2 * (sizeof(Cell) + bytes_unsplit(open.literals, open.token_count));
+  const size_t split_bytes =
+      2 * (sizeof(Cell) + bytes_unsplit(open.literals, most_words(open.tokens())));
   const bool must_end_anyway =
       useless || (is_auto ? rays * 0.25 < kFewestRays : edge * 0.5 < settings_.smallest_edge) ||
       open.stalled >= stall_limit(open.literals) || open.depth >= kMostDepth ||
@@ -174,7 +186,8 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
   across_ = is_long ? Across::kUnknown : Across::kSame;
   if (is_long && !small) return false;
   if (has_units(formula)) {
-    const Truth truth = simplifier_.simplify(formula, open.box, Expand::kAll, expanded_);
+    const Truth truth =
+        simplifier_.simplify(formula, open.box, Expand::kAll, expanded_, open.near());
     if (truth != Truth::kVaries) {
       link = decided(truth == Truth::kTrue);
       return true;
@@ -231,11 +244,12 @@ void Refiner::halve(const OpenCell& parent, Cut cut, Halves& halves) {
     (side == 0 ? part.box.hi : part.box.lo)[cut.axis] = cut.at;
     stats_.classified += parent.token_count;
     halves.truth[side] = simplifier_.simplify(parent.tokens(), part.box, expand_of(parent.literals),
-                                              halves.formula[side]);
+                                              halves.formula[side], parent.near());
     if (halves.truth[side] != Truth::kVaries) continue;
     const Simplifier::Size size = simplifier_.size_of(halves.formula[side]);
     part.literals = size.literals;
     part.is_crowded = size.is_crowded;
+    simplifier_.list_near(halves.formula[side], halves.near[side]);
     halves.cost += half_area(part.box) * part.literals;
   }
 }
@@ -255,7 +269,8 @@ CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
   size_t unsplit[2] = {0, 0}, weight[2] = {0, 0};
   for (int side = 0; side < 2; ++side) {
     if (halves_.truth[side] != Truth::kVaries) continue;
-    unsplit[side] = bytes_unsplit(halves_.part[side].literals, halves_.formula[side].size());
+    unsplit[side] = bytes_unsplit(halves_.part[side].literals,
+                                  halves_.formula[side].size() + halves_.near[side].size());
     weight[side] = halves_.part[side].literals + kFew;
   }
   const bool stalls = std::ranges::all_of(halves_.part, [&](const OpenCell& part) {
@@ -273,7 +288,7 @@ CellLink Refiner::split(const Cell& cell, const OpenCell& parent) {
       part.stalled = stalls ? parent.stalled + 1 : 0;
       part.memory =
           unsplit[side] + size_t(rest * double(weight[side]) / double(weight[0] + weight[1]));
-      link = open(part, halves_.formula[side]);
+      link = open(part, halves_.formula[side], halves_.near[side]);
     }
     cells[side].bits.store(link.bits(), std::memory_order_relaxed);
     ++stats_.cells[size_t(link.kind())];
@@ -304,7 +319,7 @@ std::optional<CellLink> Refiner::split_wide(const Cell& cell, const OpenCell& pa
   const std::vector<Formula> dealt = deal_operands(
       scene_, parent.tokens(), grid, region_edge_ * settings_.margin, loop_over(helpers));
   if (dealt.empty()) return std::nullopt;
-  return open_parts(cell, parent, grid, {dealt.begin(), dealt.end()}, helpers);
+  return open_parts(cell, parent, grid, {dealt.begin(), dealt.end()}, {}, helpers);
 }
 
 /// Splits a cell into the parts of a grid, of each of which a formula is known that is right there.
@@ -312,6 +327,7 @@ std::optional<CellLink> Refiner::split_wide(const Cell& cell, const OpenCell& pa
 std::optional<CellLink> Refiner::open_parts(const Cell& cell, const OpenCell& parent,
                                             const SplitGrid& grid,
                                             const std::vector<std::span<const Token>>& formulas,
+                                            std::span<const uint32_t> near,
                                             const Helpers* helpers) {
   const Loop loop = loop_over(helpers);
   const size_t parts = formulas.size();
@@ -324,7 +340,7 @@ std::optional<CellLink> Refiner::open_parts(const Cell& cell, const OpenCell& pa
   });
   size_t most = 0;
   for (size_t part = 0; part < parts; ++part)
-    most += 2 * sizeof(Cell) + bytes_unsplit(literals[part], formulas[part].size());
+    most += 2 * sizeof(Cell) + bytes_unsplit(literals[part], most_words(formulas[part]));
   if (most > parent.memory) return std::nullopt;
 
   // Every part by itself.
@@ -334,16 +350,18 @@ std::optional<CellLink> Refiner::open_parts(const Cell& cell, const OpenCell& pa
     Refiner& refiner = helpers == nullptr ? *this : helpers->refiner_of(worker);
     for (size_t part = first; part < last; ++part) {
       refiner.stats_.classified += formulas[part].size();
-      OpenCell child{grid.part(part), 0, parent.depth + splits, 0, 0, false, 0};
+      OpenCell child{grid.part(part), 0, parent.depth + splits, 0, 0, false, 0, 0};
       Formula& formula = refiner.halves_.formula[0];
       const Truth truth = refiner.simplifier_.simplify(formulas[part], child.box,
-                                                       expand_of(literals[part]), formula);
+                                                       expand_of(literals[part]), formula, near);
       links[part] = decided(truth == Truth::kTrue);
       if (truth != Truth::kVaries) continue;
       const Simplifier::Size size = refiner.simplifier_.size_of(formula);
       child.literals = size.literals;
       child.is_crowded = size.is_crowded;
-      links[part] = refiner.open(child, formula);
+      std::vector<uint32_t>& listed = refiner.halves_.near[0];
+      refiner.simplifier_.list_near(formula, listed);
+      links[part] = refiner.open(child, formula, listed);
       opened[part] = static_cast<OpenCell*>(const_cast<void*>(links[part].target()));
     }
   });
@@ -353,14 +371,14 @@ std::optional<CellLink> Refiner::open_parts(const Cell& cell, const OpenCell& pa
   for (const OpenCell* open : opened) {
     stalls = stalls && open != nullptr && open->literals >= parent.literals;
     if (open == nullptr) continue;
-    taken += bytes_unsplit(open->literals, open->token_count);
+    taken += bytes_unsplit(open->literals, open->words());
     weights += open->literals + kFew;
   }
   const double rest = parent.memory > taken ? double(parent.memory - taken) : 0;
   for (OpenCell* open : opened) {
     if (open == nullptr) continue;
     open->stalled = stalls ? parent.stalled + splits : 0;
-    open->memory = bytes_unsplit(open->literals, open->token_count) +
+    open->memory = bytes_unsplit(open->literals, open->words()) +
                    size_t(rest * double(open->literals + kFew) / double(weights));
   }
   stats_.depth = std::max(stats_.depth, parent.depth + splits);
@@ -427,11 +445,14 @@ Cell* Refiner::new_pair() {
   return pair;
 }
 
-CellLink Refiner::open(const OpenCell& what, std::span<const Token> formula) {
-  const size_t bytes = OpenCell::bytes(formula.size());
+CellLink Refiner::open(const OpenCell& what, std::span<const Token> formula,
+                       std::span<const uint32_t> near) {
+  const size_t bytes = OpenCell::bytes(formula.size() + near.size());
   auto* const made = ::new (open_cells_.take(bytes)) OpenCell(what);
   made->token_count = uint32_t(formula.size());
   std::uninitialized_copy(formula.begin(), formula.end(), reinterpret_cast<Token*>(made + 1));
+  made->near_count = uint32_t(near.size());
+  std::uninitialized_copy(near.begin(), near.end(), const_cast<uint32_t*>(made->near().data()));
   stats_.memory_bytes += bytes;
   return {CellKind::kOpen, made};
 }
@@ -439,6 +460,7 @@ CellLink Refiner::open(const OpenCell& what, std::span<const Token> formula) {
 CellLink Refiner::open_region() {
   if (scene_.region.is_empty()) return decided(false);
   Formula simplified;
+  std::vector<uint32_t> near;
   std::span<const Token> formula = scene_.formula;
   Simplifier::Size size{expanded_size(scene_, formula), !scene_.boundaries.empty()};
   // Of a wide one nearly all is in the region, and its parts will be looked at by all threads.
@@ -449,8 +471,10 @@ CellLink Refiner::open_region() {
     if (truth != Truth::kVaries) return decided(truth == Truth::kTrue);
     formula = simplified;
     size = simplifier_.size_of(formula);
+    simplifier_.list_near(formula, near);
   }
-  return open({scene_.region, settings_.memory, 0, 0, size.literals, size.is_crowded, 0}, formula);
+  return open({scene_.region, settings_.memory, 0, 0, size.literals, size.is_crowded, 0, 0},
+              formula, near);
 }
 
 /// Whether a formula, however long, has no more half-spaces than a truth table can hold: many

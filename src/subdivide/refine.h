@@ -22,7 +22,8 @@
 
 namespace whittle {
 
-/// A cell that is not known yet. Its formula is simplified for its box; the tokens stand behind.
+/// A cell that is not known yet. Its formula is simplified for its box; the tokens stand behind,
+/// and then which triangles of boundaries reach the cell.
 struct OpenCell {
   Box box;
   size_t memory;  ///< its share: what it and all below it may take
@@ -31,11 +32,19 @@ struct OpenCell {
   uint32_t literals;  ///< of the formula, expanded
   bool is_crowded;    ///< boundaries are in it with many more triangles (Simplifier::Size)
   uint32_t token_count;
+  uint32_t near_count;
 
   std::span<const Token> tokens() const {
     return {reinterpret_cast<const Token*>(this + 1), token_count};
   }
-  static size_t bytes(size_t tokens) { return sizeof(OpenCell) + tokens * sizeof(Token); }
+  /// See NearTriangles.
+  std::span<const uint32_t> near() const {
+    return {reinterpret_cast<const uint32_t*>(tokens().data() + token_count), near_count};
+  }
+  /// Of tokens and of what is near.
+  size_t words() const { return size_t(token_count) + near_count; }
+  static_assert(sizeof(Token) == sizeof(uint32_t));
+  static size_t bytes(size_t words) { return sizeof(OpenCell) + words * sizeof(Token); }
 };
 
 /// Two cells in a row, aligned so that either tells where the pair begins. What follows them is
@@ -92,7 +101,8 @@ class Refiner {
   CellLink open_region();
   CellLink refine(const Cell& cell, const OpenCell& open, const Helpers* helpers);
   bool ends(const OpenCell& open, CellLink& link);
-  size_t bytes_unsplit(size_t literals, size_t tokens) const;
+  size_t bytes_unsplit(size_t literals, size_t words) const;
+  size_t most_words(std::span<const Token> formula) const;
   bool keep_formula(const Cell& cell, CellLink open) const;
   size_t bytes_of_pair() const { return has_threshold_ ? sizeof(CellPair) : 2 * sizeof(Cell); }
   /// The two parts of a cell that is cut: boxes, truths, formulas.
@@ -101,6 +111,7 @@ class Refiner {
     OpenCell part[2] = {};
     Truth truth[2] = {};
     Formula formula[2];
+    std::vector<uint32_t> near[2];
     double cost = 0;  ///< literals that a ray through the parent will meet, up to a factor
   };
   void halve(const OpenCell& parent, Cut cut, Halves& halves);
@@ -114,12 +125,13 @@ class Refiner {
   std::optional<CellLink> open_parts(const Cell& cell, const OpenCell& parent,
                                      const SplitGrid& grid,
                                      const std::vector<std::span<const Token>>& formulas,
-                                     const Helpers* helpers);
+                                     std::span<const uint32_t> near, const Helpers* helpers);
   static Loop loop_over(const Helpers* helpers);
   CellLink join(const Cell& cell, const SplitGrid& grid, std::vector<CellLink> links);
   Cell* new_pair();
   /// A cell of its own, open or decided already.
-  CellLink open(const OpenCell& what, std::span<const Token> formula);
+  CellLink open(const OpenCell& what, std::span<const Token> formula,
+                std::span<const uint32_t> near);
   CellLink decided(bool full);
 
   const Scene& scene_;

@@ -57,15 +57,19 @@ Truth Simplifier::boundary(Token token, const CellBox& cell, Expand expand, Form
                            Kept& kept) {
   const Unit& unit = scene_.units[token.payload()];
   const bool negated = token.negated();
+  const LocalBsp::Known known = near_.next(token.payload());
   if (expand != Expand::kAll) {
-    const uint32_t half_spaces = bsp_.count(unit, cell);
+    const uint32_t half_spaces = bsp_.count(unit, cell, known);
     if (half_spaces == 0)
       return truth(bsp_.is_inside(unit, cell) ? Side::kInside : Side::kOutside, negated);
-    counted_.push_back({token.payload(), half_spaces});
+    const LocalBsp::Known listed = bsp_.listed();
+    counted_.push_back({token.payload(), half_spaces, uint32_t(listed_.size()),
+                        listed ? uint32_t(listed->size()) : NearTriangles::kMany});
+    if (listed) listed_.insert(listed_.end(), listed->begin(), listed->end());
     out.push_back(token);
     return Truth::kVaries;
   }
-  const std::span<const Token> formula = bsp_.formula(unit, cell, negated);
+  const std::span<const Token> formula = bsp_.formula(unit, cell, negated, known);
   const Token head = formula[0];
   if (!head.is_group()) {
     out.push_back(head);
@@ -202,11 +206,13 @@ Simplifier::Kept Simplifier::close_group(const Open& group, Formula& out) const 
 }
 
 Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, Expand expand,
-                           Formula& out) {
+                           Formula& out, std::span<const uint32_t> near) {
   const CellBox cell(cell_box, margin_);
   const double cell_edge = max_component(cell_box.size());
   tight_ = expand != Expand::kLarge;
   counted_.clear();
+  listed_.clear();
+  near_ = NearTriangles(near);
   out.clear();
   open_.clear();
   const bool in_batches = boxes_.are_worth_it(in.size());
@@ -298,22 +304,39 @@ Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, Expan
   }
 }
 
-Simplifier::Size Simplifier::size_of(std::span<const Token> written) const {
-  Size size{expanded_size(scene_, written), false};
-  if (counted_.empty()) return size;
-  // They stand in the order in which they were counted.
+/// Calls visit(what was counted) for the boundaries in the formula written last. They stand in the
+/// order in which they were counted.
+template <class Visit>
+void Simplifier::for_each_counted(std::span<const Token> written, const Visit& visit) const {
+  if (counted_.empty()) return;
   auto next = counted_.begin();
   for (const Token token : written) {
     if (token.kind() != TokenKind::kUnit || scene_.units[token.payload()].is_conjunction())
       continue;
     while (next->unit != token.payload()) ++next;
-    if (next->half_spaces == LocalBsp::kTooMany)
+    visit(*next++);
+  }
+}
+
+Simplifier::Size Simplifier::size_of(std::span<const Token> written) const {
+  Size size{expanded_size(scene_, written), false};
+  for_each_counted(written, [&](const Counted& counted) {
+    if (counted.half_spaces == LocalBsp::kTooMany)
       size.is_crowded = true;
     else
-      size.literals -= kManyLiterals - next->half_spaces;
-    ++next;
-  }
+      size.literals -= kManyLiterals - counted.half_spaces;
+  });
   return size;
+}
+
+void Simplifier::list_near(std::span<const Token> written, std::vector<uint32_t>& near) const {
+  near.clear();
+  for_each_counted(written, [&](const Counted& counted) {
+    LocalBsp::Known triangles;
+    if (counted.number != NearTriangles::kMany)
+      triangles = std::span(listed_).subspan(counted.first, counted.number);
+    NearTriangles::add(counted.unit, triangles, near);
+  });
 }
 
 uint32_t expanded_size(const Scene& scene, std::span<const Token> formula) {

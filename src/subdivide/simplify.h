@@ -11,6 +11,7 @@
 #include "lower/scene.h"
 #include "subdivide/classify.h"
 #include "subdivide/local_bsp.h"
+#include "subdivide/near_triangles.h"
 #include "subdivide/unit_boxes.h"
 
 namespace whittle {
@@ -36,7 +37,10 @@ class Simplifier {
   /// order; returns its truth, and leaves `out` empty if that is constant. `in` and `out` must not
   /// overlap; boundaries must be whole in `in`. Linear in `in` and the faces looked at; what a
   /// decided group holds is skipped.
-  Truth simplify(std::span<const Token> in, const Box& cell, Expand expand, Formula& out);
+  ///
+  /// `near`: triangles that reach the cell around, a row of NearTriangles of `in`.
+  Truth simplify(std::span<const Token> in, const Box& cell, Expand expand, Formula& out,
+                 std::span<const uint32_t> near = {});
 
   /// Literals that the formula written last would have with all its primitives expanded in the cell
   /// it was written for, and whether there are boundaries in it with too many to count; each of
@@ -46,6 +50,8 @@ class Simplifier {
     bool is_crowded = false;
   };
   Size size_of(std::span<const Token> written) const;
+  /// The triangles that reach that cell: the row of NearTriangles of that formula.
+  void list_near(std::span<const Token> written, std::vector<uint32_t>& near) const;
 
  private:
   /// What an operand that was kept amounts to for the group around it.
@@ -84,8 +90,14 @@ class Simplifier {
   /// Boundaries that stayed whole, and their half-spaces in the cell; some may have gone since.
   struct Counted {
     uint32_t unit, half_spaces;
+    uint32_t first, number;  ///< of its triangles, in listed_; or NearTriangles::kMany
   };
   std::vector<Counted> counted_;
+  std::vector<uint32_t> listed_;
+  NearTriangles near_;  ///< the cell's around; what is left of it
+
+  template <class Visit>
+  void for_each_counted(std::span<const Token> written, const Visit& visit) const;
 };
 
 /// What a boundary counts for whose half-spaces in a cell are not counted: as if they were one

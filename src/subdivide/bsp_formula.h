@@ -1,0 +1,39 @@
+// A partition of a cell as a formula: with h the half-space of a node, B what is said behind its
+// plane and F what is said in front of it, (h and B) or (not h and F) (Thibault and Naylor, Set
+// operations on polyhedra using binary space partitioning trees, 1987).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "subdivide/bsp_tree.h"
+#include "subdivide/part_windings.h"
+
+namespace whittle {
+
+/// Its memory serves all cells.
+class BspFormula {
+ public:
+  /// One operand, whose groups have no passes among them, over the faces of the planes; an empty
+  /// group if it is constant.
+  void write(const Scene& scene, const CellPolygons& in, const BspTree& tree,
+             const PartWindings& windings, bool negated);
+
+  std::span<const Token> tokens() const { return tokens_; }
+  /// How many operands the outermost group has.
+  uint32_t operands() const { return operands_; }
+
+ private:
+  /// A node's value once constants have gone.
+  enum class Form : uint8_t { kFalse, kTrue, kBehind, kInFront, kAnd, kAndNot, kOr, kOrNot, kBoth };
+
+  void find_forms(const BspTree& tree, const PartWindings& windings);
+
+  std::vector<Form> forms_;  ///< by node
+  Formula tokens_;
+  uint32_t operands_ = 0;
+};
+
+}  // namespace whittle

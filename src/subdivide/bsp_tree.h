@@ -1,0 +1,50 @@
+// A binary space partition of a cell by the planes of its polygons (Fuchs, Kedem, Naylor, On
+// visible surface generation by a priori tree structures, 1980).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "subdivide/cell_polygons.h"
+
+namespace whittle {
+
+/// Its memory serves all cells.
+class BspTree {
+ public:
+  struct Node {
+    uint32_t plane;
+    /// In front of the plane, and where plane.at(q) <= 0. Nodes, which stand behind their parents,
+    /// or parts: kPart + number.
+    uint32_t child[2];
+    Vec3 sample;  ///< a point of one of its polygons,
+    double room;  ///< and how far it is from all other planes and polygons' edges nearby; may be 0
+    int jump;     ///< by how much the winding number grows there, from front to back
+  };
+  static constexpr uint32_t kPart = 1u << 31;
+
+  /// Polygons are cut on the way. Precondition: there are some.
+  void build(CellPolygons& in);
+
+  const std::vector<Node>& nodes() const { return nodes_; }
+  uint32_t parts() const { return parts_; }
+  /// The part that a point is in, from a child or, with 0, from the root.
+  uint32_t part_at(uint32_t from, Vec3 q, const CellPolygons& in) const {
+    while ((from & kPart) == 0)
+      from = nodes_[from].child[in.planes[nodes_[from].plane].at(q) <= 0 ? 1 : 0];
+    return from & ~kPart;
+  }
+
+ private:
+  uint32_t choose(std::span<const uint32_t> polygons, const CellPolygons& in) const;
+  void divide(std::span<const uint32_t> polygons, uint32_t plane, CellPolygons& in);
+  void take_sample(std::span<const uint32_t> polygons, const CellPolygons& in, Node& node);
+
+  std::vector<Node> nodes_;
+  uint32_t parts_ = 0;
+  // Scratch: numbers of polygons.
+  std::vector<uint32_t> list_, lists_, front_, back_, on_, other_planes_;
+};
+
+}  // namespace whittle

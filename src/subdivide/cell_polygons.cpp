@@ -1,0 +1,96 @@
+#include "subdivide/cell_polygons.h"
+
+#include <algorithm>
+
+namespace whittle {
+
+void CellPolygons::measure(const Scene& scene, const Boundary& boundary,
+                           const Boundary::Triangle& triangle) {
+  const HalfSpace& h = scene.half_spaces[scene.faces[triangle.face].literal >> 1];
+  for (const uint32_t corner : triangle.corners)
+    slack = std::max(slack, std::fabs(2 * dot(h.f.b, boundary.point(corner) - h.center)));
+}
+
+void CellPolygons::add(const Scene& scene, const Boundary& boundary,
+                       const Boundary::Triangle& triangle, const CellBox& cell) {
+  // What does not cross the cell parts nothing in it.
+  const Literal literal = scene.faces[triangle.face].literal;
+  if (classify(scene.half_spaces[literal >> 1], cell) != Side::kCrosses) return;
+  cut_.clear();
+  for (const uint32_t corner : triangle.corners)
+    cut_.push_back(boundary.point(corner) - cell.center);
+  const Vec3 normal = cross(cut_[1] - cut_[0], cut_[2] - cut_[0]);
+  for (uint32_t axis = 0; axis < 3 && !cut_.empty(); ++axis) {
+    clip(axis, 1, cell.half[int(axis)]);
+    clip(axis, -1, cell.half[int(axis)]);
+  }
+  if (cut_.size() < 3 || !(width_of(cut_) > 4 * slack)) return;
+  const uint32_t plane = plane_of(scene, triangle.face, cell);
+  const int outward = dot(normal, planes[plane].n) < 0 ? -1 : 1;
+  polygons.push_back({uint32_t(corners.size()), uint32_t(cut_.size()), plane, outward});
+  corners.insert(corners.end(), cut_.begin(), cut_.end());
+}
+
+/// The number of the plane of `cut_`, a part of a face. Planes that cannot be told apart on it are
+/// one.
+uint32_t CellPolygons::plane_of(const Scene& scene, uint32_t face, const CellBox& cell) {
+  const uint32_t number = scene.faces[face].literal >> 1;
+  const HalfSpace& h = scene.half_spaces[number];
+  const Vec3 n = h.f.b * 2.0;
+  for (uint32_t i = 0; i < planes.size(); ++i) {
+    if (planes[i].half_space == number) return i;
+    const auto is_on = [&](Vec3 q) { return std::fabs(planes[i].at(q)) <= 2 * slack; };
+    if (std::fabs(dot(n, planes[i].n)) > 0.9 && std::ranges::all_of(cut_, is_on)) return i;
+  }
+  planes.push_back({n, dot(n, cell.center - h.center) + h.f.c, number, face});
+  return uint32_t(planes.size() - 1);
+}
+
+/// Keeps of `cut_` what is at sign * q[axis] <= limit.
+void CellPolygons::clip(uint32_t axis, int sign, double limit) {
+  const size_t n = cut_.size();
+  const auto at = [&](Vec3 q) { return sign * q[int(axis)] - limit; };
+  if (std::ranges::all_of(cut_, [&](Vec3 q) { return at(q) <= 0; })) return;
+  for (size_t i = 0; i < n; ++i) {
+    const Vec3 p = cut_[i], q = cut_[(i + 1) % n];
+    const double at_p = at(p), at_q = at(q);
+    if (at_p <= 0) cut_.push_back(p);
+    if ((at_p < 0 && at_q > 0) || (at_p > 0 && at_q < 0))
+      cut_.push_back(p + (q - p) * (at_p / (at_p - at_q)));
+  }
+  cut_.erase(cut_.begin(), cut_.begin() + std::ptrdiff_t(n));
+}
+
+void CellPolygons::split(const Polygon& polygon, uint32_t plane, Polygon& front, Polygon& back) {
+  const Plane& by = planes[plane];
+  front = back = polygon;
+  const auto half = [&](Polygon& part, double sign) {
+    part.first = uint32_t(corners.size());
+    for (uint32_t k = 0; k < polygon.count; ++k) {
+      const Vec3 p = corners[polygon.first + k],
+                 q = corners[polygon.first + (k + 1) % polygon.count];
+      const double at_p = sign * by.at(p), at_q = sign * by.at(q);
+      if (at_p >= 0) corners.push_back(p);
+      if ((at_p < 0 && at_q > 0) || (at_p > 0 && at_q < 0))
+        corners.push_back(p + (q - p) * (at_p / (at_p - at_q)));
+    }
+    part.count = uint32_t(corners.size()) - part.first;
+  };
+  half(front, 1);
+  half(back, -1);
+}
+
+/// About the thickness of a thin polygon: twice its area over its circumference.
+double CellPolygons::width_of(std::span<const Vec3> polygon) {
+  Vec3 area;
+  double around = 0;
+  for (size_t k = 0; k < polygon.size(); ++k) {
+    const Vec3 a = polygon[k] - polygon[0],
+               b = polygon[k + 1 < polygon.size() ? k + 1 : 0] - polygon[0];
+    area += cross(a, b);
+    around += length(b - a);
+  }
+  return around > 0 ? length(area) / around : 0;
+}
+
+}  // namespace whittle
