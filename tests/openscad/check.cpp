@@ -35,6 +35,7 @@ int check(const std::string& theirs, const std::string& ours, const std::string&
   const Differences d =
       compare({std::move(*their_picture), std::move(*our_picture), std::move(*frame)});
   const nlohmann::json report = {{"same", d.same()},
+                                 {"same_drawing", d.same_drawing()},
                                  {"enough_seen", d.enough_seen()},
                                  {"enough_compared", d.enough_compared()},
                                  {"pixels", d.pixels},
@@ -42,6 +43,7 @@ int check(const std::string& theirs, const std::string& ours, const std::string&
                                  {"hits_compared", d.inner_hits},
                                  {"edges", d.edges},
                                  {"wrong", d.wrong},
+                                 {"unequal", d.unequal},
                                  {"unexplained", d.unexplained},
                                  {"first_wrong", d.first_wrong}};
   std::printf("%s\n", report.dump().c_str());

@@ -70,22 +70,38 @@ void look_at_ours(const std::string& file, const std::string& options, Look& loo
   look_at_ours(file, options, folder, look);
 }
 
-void expect_the_same(const std::string& file, const std::string& options) {
-  SCOPED_TRACE(file + " " + options);
+namespace {
+
+/// Of both pictures, once they are made; what must hold of any.
+Differences expect_alike(const std::string& file, const std::string& options) {
   Look look;
   look_at(file, options, look);
-  if (testing::Test::HasFatalFailure()) return;
-  ASSERT_EQ(look.theirs.width, look.ours.width);
-  ASSERT_EQ(look.theirs.height, look.ours.height);
+  if (testing::Test::HasFatalFailure()) return {};
+  EXPECT_EQ(look.theirs.width, look.ours.width);
+  EXPECT_EQ(look.theirs.height, look.ours.height);
+  if (testing::Test::HasFailure()) return {};
   const Differences d = compare(look);
   std::printf(
-      "%s %s: %zu of %zu hits compared, off by %d at most; %zu edge pixels, %zu of them "
-      "unexplained\n",
+      "%s %s: %zu of %zu hits compared, off by %d at most; %zu edge pixels, %zu of them not equal, "
+      "%zu unexplained\n",
       std::filesystem::path(file).filename().c_str(), options.c_str(), d.inner_hits, d.hits,
-      d.largest, d.edges, d.unexplained);
+      d.largest, d.edges, d.unequal, d.unexplained);
   EXPECT_TRUE(d.same()) << d.wrong << " wrong, the first " << d.first_wrong;
   EXPECT_TRUE(d.enough_seen()) << "hardly anything is seen";
-  EXPECT_TRUE(d.enough_compared()) << "too little was compared";
+  return d;
+}
+
+}  // namespace
+
+void expect_the_same(const std::string& file, const std::string& options) {
+  SCOPED_TRACE(file + " " + options);
+  EXPECT_TRUE(expect_alike(file, options).enough_compared()) << "too little was compared";
+}
+
+void expect_the_same_drawing(const std::string& file, const std::string& options) {
+  SCOPED_TRACE(file + " " + options);
+  const Differences d = expect_alike(file, options);
+  EXPECT_TRUE(d.same_drawing()) << d.unequal << " of " << d.edges << " pixels at edges";
 }
 
 void expect_empty_to_openscad(const std::string& file) {

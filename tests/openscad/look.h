@@ -21,4 +21,8 @@ void expect_empty_to_openscad(const std::string& file);
 /// All that is asked of one picture.
 void expect_the_same(const std::string& file, const std::string& options);
 
+/// Of a file that is flat at the top: at edges and outlines, too, all but a few pixels must be
+/// equal.
+void expect_the_same_drawing(const std::string& file, const std::string& options);
+
 }  // namespace whittle

@@ -52,6 +52,7 @@ Differences compare(const Look& look) {
           least = std::min(least, difference(theirs, look.ours.at(u, v)));
         });
         d.unexplained += least > 1;
+        d.unequal += difference(theirs, look.ours.at(x, y)) > 1;
         continue;
       }
       d.inner_hits += hit;
