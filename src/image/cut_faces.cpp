@@ -93,14 +93,20 @@ bool CutFaces::has(const Unit& unit, uint32_t surface, Vec3 p) const {
 bool CutFaces::is_cut(uint32_t id, Vec3 point) const {
   using K = Kernels<double>;
   Vec3 p = point - scene_.origin;
-  const uint32_t surface = surface_at(units_of_[id], p);
+  const Units own = units_of_[id];
+  const uint32_t surface = surface_at(own, p);
   const HalfSpace& h = scene_.half_spaces[surface];
   const auto half_gradient = K::quadric_half_gradient(h.f, p - h.center);
   const Vec3 n{half_gradient.x, half_gradient.y, half_gradient.z};
   if (dot(n, n) > 0) p -= n * (K::quadric_value(h.f, p - h.center) / (2 * dot(n, n)));
 
-  return !formula_.value_at(p, margin_,
-                            [&](uint32_t number) { return has(scene_.units[number], surface, p); });
+  return !formula_.value_at(p, margin_, [&](uint32_t number) {
+    const Unit& unit = scene_.units[number];
+    // A convex body holds the points of its own surface, where rounding may deny it at an edge.
+    const bool is_all_of_it = number == own.first && number == own.last;
+    if (is_all_of_it && unit.is_conjunction()) return !unit.inward;
+    return has(unit, surface, p);
+  });
 }
 
 }  // namespace whittle
