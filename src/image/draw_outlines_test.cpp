@@ -79,6 +79,11 @@ TEST(DrawOutlines, ALineBeginsInTheDiamondsThatItLeaves) {
   EXPECT_EQ(columns(3.2, 8.2, 6.1), ".#####..");
 }
 
+TEST(DrawOutlines, TheEndOfALineIsNotDrawnAndItsBeginningIs) {
+  // From a diamond in row 5 to the right, and back to it from below on the right.
+  EXPECT_EQ(outline_rows({{3.2, 6.5}, {400, 6.5}, {380, -400}})[5], "...#########");
+}
+
 TEST(DrawOutlines, WithSamplesAPixelIsAsRedAsItIsCovered) {
   const std::vector<Vec2> slanted = {{2.3, 2.1}, {9.7, 3.3}, {8.1, 9.6}};
   double length = 0;

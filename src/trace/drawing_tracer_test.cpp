@@ -92,6 +92,16 @@ TEST(DrawingTracer, SeesNothingOfThePlaneFromInIt) {
     EXPECT_FALSE(hit.hit());
 }
 
+TEST(DrawingTracer, SeesNothingOfThePlaneBehindTheEye) {
+  const Workers workers(1);
+  RectangleSlab slab;
+  DrawingTracer tracer(slab, kRectangleBox, workers);
+  ViewOptions view = *parse_camera("2,1,3,2,1.1,9");
+  view.width = view.height = 9;
+  for (const Hit& hit : tracer.render(make_camera(view, {}, kRectangleBox)).hits)
+    EXPECT_FALSE(hit.hit());
+}
+
 TEST(DrawingTracer, OfNothingNothingIsSeen) {
   const Workers workers(1);
   RectangleSlab slab;
