@@ -28,6 +28,20 @@ bool is_told(const Box& box) {
   return !box.is_empty() && box.is_finite();
 }
 
+/// To the digits that are known: the solid's box is found to a millionth of its longest edge.
+Box rounded(const Box& box) {
+  const Vec3 size = box.size();
+  const double longest = std::max({size.x, size.y, size.z});
+  if (!(longest > 0)) return box;
+  const double steps = std::pow(10, std::ceil(-std::log10(longest * 1e-6)));
+  const auto round = [&](double x) {
+    const double near = std::round(x * steps) / steps;
+    return std::isfinite(near) ? near : x;
+  };
+  return {{round(box.lo.x), round(box.lo.y), round(box.lo.z)},
+          {round(box.hi.x), round(box.hi.y), round(box.hi.z)}};
+}
+
 Json to_json(Vec3 v) {
   return {v.x, v.y, v.z};
 }
@@ -76,9 +90,9 @@ std::string summary_json(const SummaryFacts& facts, const SummaryArguments& summ
   if (is_told(facts.box) && (tells_geometry || tells_box)) {
     json["geometry"]["dimensions"] = 3;
     if (tells_box) {
-      json["geometry"]["bounding_box"] = {{"min", to_json(facts.box.lo)},
-                                          {"max", to_json(facts.box.hi)},
-                                          {"size", to_json(facts.box.hi - facts.box.lo)}};
+      const Box box = rounded(facts.box);
+      json["geometry"]["bounding_box"] = {
+          {"min", to_json(box.lo)}, {"max", to_json(box.hi)}, {"size", to_json(box.size())}};
     }
   }
   if (has(summary, "camera")) {

@@ -26,15 +26,10 @@ void for_faces_near(const Scene& scene, const Unit& unit, Vec3 p, double margin,
   });
 }
 
-bool is_near(const Box& box, Vec3 p, double margin) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (p[axis] < box.lo[axis] - margin || p[axis] > box.hi[axis] + margin) return false;
-  return true;
-}
-
 }  // namespace
 
-CutFaces::CutFaces(const Scene& scene) : scene_(scene), margin_(10 * scene.tolerance) {
+CutFaces::CutFaces(const Scene& scene)
+    : scene_(scene), formula_(scene), margin_(10 * scene.tolerance) {
   std::vector<uint8_t> signs(scene.half_spaces.size(), 0);
   for (const Token token : scene.formula) {
     if (token.is_group()) continue;
@@ -78,10 +73,9 @@ uint32_t CutFaces::surface_at(Units units, Vec3 p) const {
   return nearest;
 }
 
-/// Whether a point of a surface is in a unit. A body holds its surface; so its parts do, and those
-/// that are taken away from it do not.
+/// Whether a point of a surface that is near a unit's box is in the unit. A body holds its surface;
+/// so its parts do, and those that are taken away from it do not.
 bool CutFaces::has(const Unit& unit, uint32_t surface, Vec3 p) const {
-  if (!is_near(unit.outer, p, margin_)) return false;
   if (unit.is_conjunction()) {
     bool inside = true;
     for (uint32_t f = unit.first_face; inside && f < unit.first_face + unit.face_count; ++f) {
@@ -99,16 +93,19 @@ bool CutFaces::has(const Unit& unit, uint32_t surface, Vec3 p) const {
 bool CutFaces::is_cut(uint32_t id, Vec3 point) const {
   using K = Kernels<double>;
   Vec3 p = point - scene_.origin;
-  const uint32_t surface = surface_at(units_of_[id], p);
+  const Units own = units_of_[id];
+  const uint32_t surface = surface_at(own, p);
   const HalfSpace& h = scene_.half_spaces[surface];
   const auto half_gradient = K::quadric_half_gradient(h.f, p - h.center);
   const Vec3 n{half_gradient.x, half_gradient.y, half_gradient.z};
   if (dot(n, n) > 0) p -= n * (K::quadric_value(h.f, p - h.center) / (2 * dot(n, n)));
 
-  return !evaluate<uint8_t>(scene_.formula, 1, [&](Token token) -> uint8_t {
-    const uint32_t number =
-        token.kind() == TokenKind::kFace ? scene_.faces[token.payload()].unit : token.payload();
-    return has(scene_.units[number], surface, p) != token.negated();
+  return !formula_.value_at(p, margin_, [&](uint32_t number) {
+    const Unit& unit = scene_.units[number];
+    // A convex body holds the points of its own surface, where rounding may deny it at an edge.
+    const bool is_all_of_it = number == own.first && number == own.last;
+    if (is_all_of_it && unit.is_conjunction()) return !unit.inward;
+    return has(unit, surface, p);
   });
 }
 

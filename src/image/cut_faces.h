@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "image/near_formula.h"
 #include "lower/scene.h"
 
 namespace whittle {
@@ -24,7 +25,7 @@ class CutFaces {
     return id < units_of_.size() && units_of_[id].first != kNoUnit;
   }
   /// Whether the surface of that primitive at a world point is cut. The point may be off the
-  /// surface by rounding. Linear in the formula. Precondition: is_contested(id).
+  /// surface by rounding. Reads what of the formula is near. Precondition: is_contested(id).
   bool is_cut(uint32_t id, Vec3 point) const;
 
  private:
@@ -37,6 +38,7 @@ class CutFaces {
   uint32_t surface_at(Units units, Vec3 p) const;
 
   const Scene& scene_;
+  NearFormula formula_;
   double margin_;                ///< surfaces and boxes may be off by so much
   std::vector<Units> units_of_;  ///< by id, if it is contested
 };

@@ -38,6 +38,14 @@ TEST(CutFaces, ACutterThatTouchesFromOutsideTakesTheFaceAlong) {
   EXPECT_FALSE(is_cut(text, 1, {8, 0, 5}));
 }
 
+TEST(CutFaces, ABodyHoldsItsEdgesWhateverRoundingSays) {
+  const char* text = "difference(){ cube(10); translate([0,0,10]) cube([5,10,10]); }";
+  for (const double off : {-1e-12, 0.0, 1e-12}) {
+    EXPECT_FALSE(is_cut(text, 1, {8, off, 10}));
+    EXPECT_FALSE(is_cut(text, 1, {10 - off, 5, 10}));
+  }
+}
+
 TEST(CutFaces, MaterialOnACutGivesTheFaceBack) {
   const char* text =
       "union(){ difference(){ cube(10); translate([0,0,5]) cube(20); }"

@@ -154,6 +154,10 @@ TEST_F(DropIn, ASummaryIsWritten) {
   EXPECT_EQ(all["camera"]["fov"], 22.5);
   EXPECT_GE(all["time"]["total"], 0);
   EXPECT_EQ(all["time"]["hours"], 0);
+  write("box.csg", "difference() { cube(20, center = true); cylinder(r = 4, h = 99); }");
+  with({"--summary-file", "s.json"});
+  EXPECT_EQ(Json::parse(read("s.json"))["geometry"]["bounding_box"]["max"],
+            Json({10.0, 10.0, 10.0}));
   const Ended some = with({"--summary", "camera", "--summary-file", "-"});
   const Json camera = Json::parse(some.out);
   EXPECT_TRUE(camera.contains("camera"));

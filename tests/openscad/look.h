@@ -1,22 +1,12 @@
-// `whittle --style openscad` beside `openscad --render`, given the same command line: the same
-// picture to a level of 255, away from edges.
-//
-// What an edge is, whittle's own facts say: a pixel is compared if it and its eight neighbours see
-// one face of one primitive (or all see nothing) in one colour. At edges each pixel of OpenSCAD's
-// must be found in ours at most one pixel away.
+// `whittle --style openscad` beside `openscad --render`, given the same command line: look_rule.h
+// says when both show the same.
 #pragma once
 
 #include <string>
 
-#include "image/picture.h"
-#include "trace/frame.h"
+#include "look_rule.h"
 
 namespace whittle {
-
-struct Look {
-  Picture theirs, ours;
-  Frame facts;
-};
 
 /// Both programs' pictures of a file. `options` are for both. A program that fails is a failure of
 /// the test.
@@ -34,8 +24,5 @@ void expect_the_same(const std::string& file, const std::string& options);
 /// Of a file that is flat at the top: at edges and outlines, too, all but a few pixels must be
 /// equal.
 void expect_the_same_drawing(const std::string& file, const std::string& options);
-
-/// The pixels at which whittle sees a surface.
-size_t hits(const Frame& facts);
 
 }  // namespace whittle
