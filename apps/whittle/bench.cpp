@@ -360,7 +360,7 @@ int bench_command(Arguments arguments) {
   group.add_flag("--json", a.wants_json, "an array with one object a file");
   add_view_options(app, a.view, a.loading);
   add_loading_options(line, a.loading);
-  add_machine_options(app, a.renderer);
+  add_machine_options(app, a.renderer, a.loading);
   add_subdivision_options(app, a.subdivision);
   if (const std::optional<int> code = line.parse(arguments)) return *code;
   if (std::ranges::find(a.files, "-") != a.files.end()) {

@@ -61,6 +61,7 @@ ReadOptions read_options(const Loading& loading) {
   }
   return {.curves = loading.curves,
           .polish = loading.polish,
+          .threads = loading.threads ? *loading.threads : 0,
           .limits = loading.limits,
           .folder = std::nullopt,
           .import_root = loading.import_root,
@@ -179,7 +180,7 @@ void add_shadow_option(CLI::App& app, ShadeSettings& shading) {
                 "lights reach only what they see (not in style openscad)");
 }
 
-void add_machine_options(CLI::App& app, RendererSettings& settings) {
+void add_machine_options(CLI::App& app, RendererSettings& settings, Loading& loading) {
   OptionGroup group(app, "Machine");
   group.add_text("--backend", "NAME",
                  fmt::format("{}; auto: the fastest that works here", names_of(backend_choices())),
@@ -203,6 +204,7 @@ void add_machine_options(CLI::App& app, RendererSettings& settings) {
       [&](bool culling) { settings.culling = culling; });
   group.add_count("--threads", "N", settings.threads, 0, kMostThreads,
                   "0 (all) to 1024; the picture is the same");
+  loading.threads = &settings.threads;
 }
 
 Status settle_device(RendererSettings& settings) {

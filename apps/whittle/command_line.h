@@ -24,6 +24,7 @@ struct Loading {
   bool quiet = false;
   ScadArguments scad;
   const ViewOptions* view = nullptr;  ///< openscad is told its camera
+  const int* threads = nullptr;       ///< what --threads says
 };
 void add_loading_options(CommandLine& line, Loading& loading);
 /// --lenient, of what makes pictures.
@@ -56,8 +57,8 @@ void add_color_options(CLI::App& app, ShadeSettings& shading);
 void add_shadow_option(CLI::App& app, ShadeSettings& shading);
 
 /// --backend, --device, --threads and the like. OpenSCAD's own backends stand for `auto`: the
-/// picture is the same.
-void add_machine_options(CLI::App& app, RendererSettings& settings);
+/// picture is the same. Files are read on as many threads.
+void add_machine_options(CLI::App& app, RendererSettings& settings, Loading& loading);
 
 /// A device that is named is taken, so `auto` is the backend that has devices then; fails if
 /// another one was chosen. After the command line is read.

@@ -100,7 +100,7 @@ void add_options(CommandLine& line, RenderArguments& a) {
   look.add_flag("--no-background", a.no_background, "what is not hit is transparent");
   add_loading_options(line, a.loading);
   add_lenient_option(app, a.loading);
-  add_machine_options(app, a.renderer);
+  add_machine_options(app, a.renderer, a.loading);
   machine.add_flag("--stats", a.wants_statistics, "say what was done and what it cost");
   add_subdivision_options(app, a.subdivision);
   line.add_version("whittle " WHITTLE_VERSION);

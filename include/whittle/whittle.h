@@ -52,6 +52,8 @@ struct LoadOptions {
   std::size_t most_nodes = 20'000'000;   ///< statements
   std::size_t most_values = 10'000'000;  ///< numbers and other values in one statement
   std::size_t most_facets = 2'100'000;   ///< flat faces, of all bodies together
+
+  int threads = 0;  ///< 0: all. The result does not depend on it.
 };
 
 struct RenderOptions {

@@ -18,7 +18,7 @@ Result<Model> evaluate(Document document, const EvaluateOptions& options, Warnin
     return Error{ErrorKind::kInput,
                  message_at(document.model.file, where, "error: " + budget.message())};
   };
-  build_polyhedra(document.model, budget, warnings, where);
+  build_polyhedra(document.model, options.threads, budget, warnings, where);
   if (budget.is_spent()) return too_much();
   const bool is_model = document.leaves.empty() && document.operations.empty();
   Model model;

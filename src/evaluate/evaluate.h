@@ -20,6 +20,7 @@ struct EvaluateOptions {
   /// Of all flat faces together, and of corners that are computed with: more are an error. It names
   /// the limit as the command line does.
   size_t most_facets = 2'100'000;
+  int threads = 0;  ///< 0: all
   /// The content of a file that the document names, as it names it; none if there is no such file,
   /// which is a warning as in OpenSCAD. Errors say why it cannot be read, without a place. Without
   /// this function no files are read.

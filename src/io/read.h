@@ -45,6 +45,7 @@ struct FlattenOptions {
 struct ReadOptions {
   Curves curves = Curves::kAuto;
   bool polish = true;  ///< rotations in `multmatrix` get back what printing took (polish.h)
+  int threads = 0;     ///< that bodies are built on; 0: all
   ReadLimits limits{};
   /// What the names of files in the text are relative to; "" is the current folder. Without it the
   /// text can name no files. read_file() takes that of the file.

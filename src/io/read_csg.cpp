@@ -26,6 +26,7 @@ Result<Read> read_csg(std::string_view text, const std::string& file_name,
   if (!document) return document.error();
   EvaluateOptions evaluating{.curves = options.curves,
                              .most_facets = options.limits.facets,
+                             .threads = options.threads,
                              .read_file = nullptr,
                              .solid_box = options.solid_box};
   if (options.folder) {

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "lower/plane_sieve.h"
 #include "lower/point_index.h"
 #include "lower/scene.h"
 
@@ -79,6 +80,12 @@ class HalfSpaceTable {
   void visit_planes(PointIndex Shelves::*shelf, const HalfSpace& h, const Reach& reach,
                     bool complement, const Visit& visit) const;
   void put(const HalfSpace& h, uint32_t number, bool is_ball, const Fingerprint& at);
+  void put_plane(uint32_t number);
+  bool stands_alone(const HalfSpace& h, const Reach& reach);
+  PlaneSieve* sieve_for(double offset_slack, double normal_slack);
+  void add_to_sieves(uint32_t number);
+  PlanePlace place_of(const HalfSpace& h) const;
+  uint32_t add_new(const HalfSpace& h, double tolerance);
   uint32_t group_of(Vec3 normal);
   /// Calls visit(group) for all whose normal is within `parting` of n in every coordinate, until it
   /// returns false.
@@ -102,6 +109,11 @@ class HalfSpaceTable {
   static constexpr std::array<double, 3> kNormalCellsPerUnit = {1 << 6, 1 << 10, 1 << 16};
   std::array<PointIndex, kNormalCellsPerUnit.size()> groups_;
   Shelves planes_;
+  /// All planes are in all sieves that there are so far. What has been taken from one of them, or
+  /// is not held by it, is in the indices above.
+  std::vector<PlaneSieve> sieves_;
+  std::vector<bool> is_put_;  ///< one a half-space
+  bool puts_all_ = false;     ///< planes have come for which every sieve is too fine
 };
 
 }  // namespace whittle

@@ -18,12 +18,10 @@
 #include "model/polyhedron.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <optional>
-#include <tuple>
-#include <unordered_map>
 #include <utility>
 #include <variant>
 
@@ -56,10 +54,26 @@ struct Face {
 
 /// Corners by place: equal points get the number of the first of them.
 std::vector<uint32_t> merge_equal_points(const std::vector<Vec3>& points) {
-  std::map<std::tuple<double, double, double>, uint32_t> first;
+  // A hash table, not more than half full.
+  const size_t mask = std::bit_ceil(2 * points.size() + 1) - 1;
+  std::vector<uint32_t> slots(mask + 1, UINT32_MAX);
+  const auto hash_of = [](const Vec3& p) {
+    uint64_t hash = 0;
+    for (const double x : {p.x, p.y, p.z}) {
+      // Both zeros are one.
+      hash = (hash ^ std::bit_cast<uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15ull;
+      hash ^= hash >> 32;
+    }
+    return hash;
+  };
   std::vector<uint32_t> merged(points.size());
-  for (uint32_t i = 0; i < points.size(); ++i)
-    merged[i] = first.try_emplace({points[i].x, points[i].y, points[i].z}, i).first->second;
+  for (uint32_t i = 0; i < points.size(); ++i) {
+    size_t slot = hash_of(points[i]) & mask;
+    while (slots[slot] != UINT32_MAX && !(points[slots[slot]] == points[i]))
+      slot = (slot + 1) & mask;
+    if (slots[slot] == UINT32_MAX) slots[slot] = i;
+    merged[i] = slots[slot];
+  }
   return merged;
 }
 
@@ -81,21 +95,44 @@ Vec3 area_vector(const Loop& loop, const std::vector<Vec3>& points) {
   return sum;
 }
 
-/// Which face, by its place in the list, runs along an edge in that direction.
+/// Which face, by its place in the list, runs along an edge in that direction. A hash table, not
+/// more than half full.
 class Edges {
  public:
+  Edges() = default;
+  /// For so many edges at most.
+  explicit Edges(size_t edges) : slots_(std::bit_ceil(2 * edges + 1)) {}
+
   /// False if a face does so already.
   bool add(uint32_t from, uint32_t to, uint32_t face) {
-    return faces_.try_emplace(key(from, to), face).second;
+    Slot& slot = slots_[find_slot(from, to)];
+    if (slot.face != kNone) return false;
+    slot = {from, to, face};
+    return true;
   }
   const uint32_t* find(uint32_t from, uint32_t to) const {
-    const auto found = faces_.find(key(from, to));
-    return found == faces_.end() ? nullptr : &found->second;
+    const Slot& slot = slots_[find_slot(from, to)];
+    return slot.face == kNone ? nullptr : &slot.face;
   }
 
  private:
-  static uint64_t key(uint32_t from, uint32_t to) { return uint64_t{from} << 32 | to; }
-  std::unordered_map<uint64_t, uint32_t> faces_;
+  static constexpr uint32_t kNone = UINT32_MAX;
+  struct Slot {
+    uint32_t from = 0, to = 0;
+    uint32_t face = kNone;
+  };
+
+  /// That of the edge, or a free one.
+  size_t find_slot(uint32_t from, uint32_t to) const {
+    const size_t mask = slots_.size() - 1;
+    const uint64_t key = uint64_t{from} << 32 | to;
+    size_t i = (key * 0x9e3779b97f4a7c15ull >> 32) & mask;
+    while (slots_[i].face != kNone && (slots_[i].from != from || slots_[i].to != to))
+      i = (i + 1) & mask;
+    return i;
+  }
+
+  std::vector<Slot> slots_;
 };
 
 /// Calls `visit(from, to)` for every edge of the face; stops where it returns false.
@@ -112,6 +149,9 @@ bool all_edges(const Loop& loop, const Visit& visit) {
 /// Each edge must be run along once in each direction.
 std::optional<std::string> check_closed(const std::vector<Face>& faces, Edges& edges) {
   std::string reason;
+  size_t count = 0;
+  for (const Face& face : faces) count += face.loop.size();
+  edges = Edges(count);
   for (uint32_t f = 0; f < faces.size(); ++f) {
     const auto is_new = [&](uint32_t a, uint32_t b) {
       if (edges.add(a, b, f)) return true;

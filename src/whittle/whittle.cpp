@@ -41,9 +41,17 @@ std::optional<Vec3> to_vec3(const std::optional<Point>& p, const char* name) {
   return to_vec3(*p);
 }
 
+int threads_of(int threads) {
+  if (threads < 0 || threads > kMostThreads) {
+    refuse("threads must be 0 to " + std::to_string(kMostThreads));
+  }
+  return threads;
+}
+
 ReadOptions reading_of(const LoadOptions& o) {
   return {.curves = value_of(choose(curves_choices(), "kind of curves", o.curves)),
           .polish = value_of(choose(matrices_choices(), "kind of matrices", o.matrices)),
+          .threads = threads_of(o.threads),
           .limits = {.bytes = o.most_bytes,
                      .depth = o.most_depth,
                      .nodes = o.most_nodes,
@@ -137,9 +145,6 @@ Rendering Solid::render(const RenderOptions& options) const {
   if (options.antialias < 0 || options.antialias > kMostAntialias) {
     refuse("antialias must be 0 to " + std::to_string(kMostAntialias));
   }
-  if (options.threads < 0 || options.threads > kMostThreads) {
-    refuse("threads must be 0 to " + std::to_string(kMostThreads));
-  }
   const ShadeSettings shading = shading_of(options);
   value_of(check_shadows(shading));
   const ViewOptions view = view_of(options);
@@ -147,7 +152,7 @@ Rendering Solid::render(const RenderOptions& options) const {
   settings.backend = value_of(choose(backend_choices(), "backend", options.backend));
   settings.device = options.device;
   settings.shaders = value_of(choose(shaders_choices(), "kind of shaders", options.shaders));
-  settings.threads = options.threads;
+  settings.threads = threads_of(options.threads);
   settings.subdivide.memory = options.cell_memory;
   Renderer renderer = value_of(Renderer::make(state_->read.model, settings));
   const Camera camera = renderer.camera(view);
