@@ -50,6 +50,7 @@ Status check_loading(const std::string& file, const Loading& loading) {
 void suit_style(Style style, Loading& loading) {
   if (style == Style::kOpenscad && loading.curves != Curves::kSmooth) {
     loading.curves = Curves::kOpenscad2021;
+    loading.outlines = true;
   }
 }
 
@@ -65,6 +66,7 @@ ReadOptions read_options(const Loading& loading) {
           .limits = loading.limits,
           .folder = std::nullopt,
           .import_root = loading.import_root,
+          .outlines = loading.outlines,
           .solid_box = tight_box,
           .flatten = std::move(flatten)};
 }

@@ -16,6 +16,7 @@ namespace whittle {
 
 struct Loading {
   Curves curves = Curves::kAuto;
+  bool outlines = false;  ///< of drawings
   bool polish = true;
   ReadLimits limits;
   std::optional<std::string> import_root;

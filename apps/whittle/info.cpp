@@ -32,11 +32,9 @@ constexpr std::array<const char*, std::variant_size_v<Shape>> kShapeNames = {
 struct Info {
   std::array<size_t, kNodeNames.size()> nodes{};
   std::array<size_t, kShapeNames.size()> shapes{};
-  size_t curved = 0;      ///< spheres and cylinders that are true curves
-  size_t background = 0;  ///< nodes marked `%`
-  size_t highlight = 0;   ///< nodes marked `#`
-  size_t in_solid = 0;    ///< primitives that are not background
-  size_t empty = 0;       ///< of those
+  size_t curved = 0;    ///< spheres and cylinders that are true curves
+  size_t in_solid = 0;  ///< primitives that are not background
+  size_t empty = 0;     ///< of those
   size_t faces = 0, half_spaces = 0;
   Bounds bounds;
   double tolerance = 0;
@@ -44,11 +42,7 @@ struct Info {
 
 Result<Info> gather(const Model& model) {
   Info info;
-  for (const Node& node : model.nodes) {
-    ++info.nodes[size_t(node.kind)];
-    info.background += node.background;
-    info.highlight += node.highlight;
-  }
+  for (const Node& node : model.nodes) ++info.nodes[size_t(node.kind)];
   for (const Primitive& primitive : model.primitives) {
     ++info.shapes[primitive.shape.index()];
     info.curved += !is_flat(primitive.shape);
@@ -63,6 +57,7 @@ Result<Info> gather(const Model& model) {
   info.half_spaces = scene->half_spaces.size();
   info.bounds = bounds(model);
   info.tolerance = tolerance(info.bounds);
+  info.bounds.box = seen_box(model, info.bounds.box);
   return info;
 }
 
@@ -74,14 +69,21 @@ std::string describe_json(const Read& read, const Info& info) {
   nlohmann::ordered_json json;
   json["file"] = read.model.file;
   json["statements"] = read.model.statement_count;
-  for (size_t i = 0; i < kNodeNames.size(); ++i) json["nodes"][kNodeNames[i]] = info.nodes[i];
+  json["nodes"] = nlohmann::ordered_json::object();
+  for (const WordCount& word : read.counts.words) json["nodes"][word.word] = word.count;
+  json["background_nodes"] = read.counts.background;
+  json["highlight_nodes"] = read.counts.highlight;
+  json["root_nodes"] = read.counts.root;
+  json["disabled_nodes"] = read.counts.disabled;
+  json["drawing"] = read.model.drawing.has_value();
+  for (size_t i = 0; i < kNodeNames.size(); ++i) {
+    json["model_nodes"][kNodeNames[i]] = info.nodes[i];
+  }
   for (size_t i = 0; i < kShapeNames.size(); ++i) {
     json["primitives"][kShapeNames[i]] = info.shapes[i];
   }
   json["curved_primitives"] = info.curved;
   json["empty_primitives"] = info.empty;
-  json["background_nodes"] = info.background;
-  json["highlight_nodes"] = info.highlight;
   json["faces"] = info.faces;
   json["half_spaces"] = info.half_spaces;
   json["merged_faces"] = info.faces - info.half_spaces;
@@ -97,16 +99,40 @@ std::string describe_json(const Read& read, const Info& info) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
+/// Names with their numbers, but for zeros.
+class CountList {
+ public:
+  void add(std::string_view name, size_t number) {
+    if (number == 0) return;
+    fmt::format_to(std::back_inserter(text_), "{}{} {}", text_.empty() ? "" : ", ", name, number);
+  }
+  std::string text() const { return text_.empty() ? "none" : text_; }
+
+ private:
+  std::string text_;
+};
+
 template <size_t count>
 std::string list(const std::array<const char*, count>& names,
                  const std::array<size_t, count>& numbers) {
-  std::string text;
-  for (size_t i = 0; i < count; ++i) {
-    if (numbers[i] == 0) continue;
-    fmt::format_to(std::back_inserter(text), "{}{} {}", text.empty() ? "" : ", ", names[i],
-                   numbers[i]);
-  }
-  return text.empty() ? "none" : text;
+  CountList counts;
+  for (size_t i = 0; i < count; ++i) counts.add(names[i], numbers[i]);
+  return counts.text();
+}
+
+std::string list(const std::vector<WordCount>& words) {
+  CountList counts;
+  for (const WordCount& word : words) counts.add(word.word, word.count);
+  return counts.text();
+}
+
+std::string list_marks(const StatementCounts& counts) {
+  CountList marks;
+  marks.add("background (%)", counts.background);
+  marks.add("highlighted (#)", counts.highlight);
+  marks.add("root (!)", counts.root);
+  marks.add("disabled (*)", counts.disabled);
+  return marks.text();
 }
 
 std::string describe_bounds(const Bounds& bounds) {
@@ -123,13 +149,15 @@ std::string describe_text(const Read& read, const Info& info) {
   };
   add("file", read.model.file);
   add("statements", fmt::format("{}", read.model.statement_count));
-  add("nodes", list(kNodeNames, info.nodes));
+  add("nodes", list(read.counts.words));
+  const StatementCounts& counts = read.counts;
+  if (counts.background + counts.highlight + counts.root + counts.disabled > 0) {
+    add("marked", list_marks(counts));
+  }
+  add("evaluated",
+      fmt::format("{}{}", list(kNodeNames, info.nodes), read.model.drawing ? "; a drawing" : ""));
   add("primitives", fmt::format("{}; {} curved", list(kShapeNames, info.shapes), info.curved));
   add("in the solid", fmt::format("{} primitives, {} of them empty", info.in_solid, info.empty));
-  if (info.background + info.highlight > 0) {
-    add("marked",
-        fmt::format("{} background (%), {} highlighted (#)", info.background, info.highlight));
-  }
   add("half-spaces", fmt::format("{} for {} faces, {} merged", info.half_spaces, info.faces,
                                  info.faces - info.half_spaces));
   add("bounds", describe_bounds(info.bounds));

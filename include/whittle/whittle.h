@@ -44,6 +44,7 @@ using Point = std::array<double, 3>;
 
 struct LoadOptions {
   std::string curves = "auto";        ///< "auto", "facets" or "smooth"
+  bool outlines = false;              ///< of a drawing, for style "openscad"
   std::string matrices = "polished";  ///< or "as-written": rotations keep the error of six digits
 
   // What is too much: a file that passes one of these limits is refused.

@@ -27,6 +27,12 @@ Result<Model> evaluate(Document document, const EvaluateOptions& options, Warnin
   } else {
     model = Evaluator(document, options, budget, warnings).run(where);
     if (budget.is_spent()) return too_much();
+    if (model.drawing && options.outlines) {
+      Warnings said_before(document.model.file);
+      budget = Budget(options.most_facets);  // The same shapes once more are no more faces.
+      model.drawing->outlines = Evaluator(document, options, budget, said_before).outlines(where);
+      if (budget.is_spent()) return too_much();
+    }
   }
   for (std::string& warning : transform_warnings(model)) {
     warnings.add_full("a transform leaves nothing of what it moves", std::move(warning));

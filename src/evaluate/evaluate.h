@@ -25,14 +25,16 @@ struct EvaluateOptions {
   /// which is a warning as in OpenSCAD. Errors say why it cannot be read, without a place. Without
   /// this function no files are read.
   std::function<Result<std::optional<std::string>>(const std::string& file)> read_file;
+  /// Whether a drawing gets its outlines.
+  bool outlines = false;
   /// The exact box of a solid, for resize(); without it the bounds of its tree stand for it.
   std::function<Box(const Model&)> solid_box;
 };
 
 /// The solid that a document describes, as a model without leaves and operations. Every extrusion,
 /// hull and so on becomes one body: a primitive, or a kBody that holds its parts, with the id of
-/// its statement. Flat shapes that stand alone at the top are slabs, z in [-0.5, 0.5]. What cannot
-/// be done is left out or replaced, with a warning of what happened.
+/// its statement. Flat shapes that stand alone at the top are a drawing. What cannot be done is
+/// left out or replaced, with a warning of what happened.
 ///
 /// Errors: kInput, `file:line:column: error: ...`, for what passes the limit. Depth costs memory,
 /// never stack. A document that holds neither leaves nor operations passes through.

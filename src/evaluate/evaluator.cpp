@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "evaluate/extrusions.h"
 #include "model/facets.h"
+#include "model/instances.h"
 
 namespace whittle {
 
@@ -28,8 +30,22 @@ Evaluator::Evaluator(Document& document, const EvaluateOptions& options, Budget&
 }
 
 Model Evaluator::run(SourceLocation& where) {
-  const std::vector<Node>& nodes = document_.model.nodes;
   open_.push_back(root_frame());
+  walk(where);
+  return std::move(out_);
+}
+
+std::vector<Contour> Evaluator::outlines(SourceLocation& where) {
+  Frame root;
+  root.mode = Mode::kFlat;
+  open_.push_back(root);
+  walk(where);
+  return take_united(root).contours;
+}
+
+/// To the end of the document, or of the budget.
+void Evaluator::walk(SourceLocation& where) {
+  const std::vector<Node>& nodes = document_.model.nodes;
   while (!budget_.is_spent()) {
     if (next_ == nodes[open_.back().node].end) {
       where = node_of(open_.back()).where;
@@ -40,18 +56,37 @@ Model Evaluator::run(SourceLocation& where) {
       next_ = enter(next_);
     }
   }
-  return std::move(out_);
 }
 
-/// What stands alone at the top and is flat is shown as a slab.
+/// What stands alone at the top and is flat is a slab, whose height follows when its size is known.
 Evaluator::Frame Evaluator::root_frame() {
   Frame root;
   root.out = begin_node(NodeKind::kUnion, 0, document_.model.nodes[0]);
   if (dimensions_[0] != Dimension::kFlat) return root;
   begin_node(NodeKind::kTransform, 0, document_.model.nodes[0]);
-  out_.transforms.push_back(translation({0, 0, -0.5}));
+  out_.transforms.emplace_back();
+  out_.drawing.emplace();
   root.mode = Mode::kEmbedded;
   return root;
+}
+
+void Evaluator::close_root(const Frame& root) {
+  if (root.mode == Mode::kFlat) return;
+  const auto end = uint32_t(out_.nodes.size());
+  out_.nodes[0].end = end;
+  if (!out_.drawing) return;
+  out_.nodes[1].end = end;
+  // The height is nothing that anyone wrote, so no tolerance may follow from it: it is less than
+  // the longest edge of the box, and more than what makes a primitive thin.
+  constexpr double kFlatness = 64;
+  constexpr double kLeast = 1e-100;  // Squares of less may be 0.
+  const Box box = bounds(out_).box;
+  const Vec3 size = box.is_empty() ? Vec3{} : box.size();
+  const double height = std::fmax(size.x, size.y) / kFlatness;
+  if (!(height >= kLeast && std::isfinite(height))) return;
+  Affine& map = out_.transforms.front();
+  map.row[2].z = height;
+  map.translation.z = -height / 2;
 }
 
 /// Evaluates a leaf, or opens a node. The number of the node that comes next.
@@ -214,9 +249,7 @@ void Evaluator::close() {
   open_.pop_back();
   const NodeKind kind = node_of(frame).kind;
   if (open_.empty()) {
-    // The root, and what makes slabs of all in it.
-    out_.nodes[0].end = uint32_t(out_.nodes.size());
-    if (frame.mode == Mode::kEmbedded) out_.nodes[1].end = uint32_t(out_.nodes.size());
+    close_root(frame);
     return;
   }
   if (kind == NodeKind::kOperation) {

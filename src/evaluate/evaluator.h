@@ -29,6 +29,10 @@ class Evaluator {
   /// The model; if the budget is spent, of no use, and `where` is where that was.
   Model run(SourceLocation& where);
 
+  /// In its place, of what is flat at the top: all of it as one. Of the budget and the place the
+  /// same holds.
+  std::vector<Contour> outlines(SourceLocation& where);
+
  private:
   static constexpr uint32_t kNone = UINT32_MAX;
 
@@ -60,7 +64,9 @@ class Evaluator {
   }
 
   // evaluator.cpp: the walk.
+  void walk(SourceLocation& where);
   Frame root_frame();
+  void close_root(const Frame& root);
   uint32_t enter(uint32_t i);
   bool admit_dimension(uint32_t i);
   void leave_out(uint32_t i);

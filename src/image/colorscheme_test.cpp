@@ -15,6 +15,17 @@ TEST(ColorScheme, CornfieldComesFirst) {
   EXPECT_EQ(first.back, (Rgb8{0x9D, 0xCB, 0x51}));
 }
 
+TEST(ColorScheme, DrawingsHaveColorsOfTheirOwn) {
+  const auto plane = [](const char* name) { return find_color_scheme(name)->plane; };
+  const auto outline = [](const char* name) { return find_color_scheme(name)->outline; };
+  EXPECT_EQ(plane("Cornfield"), (Rgb8{0x00, 0xBF, 0x99}));
+  EXPECT_EQ(outline("Monotone"), (Rgb8{0xFF, 0x00, 0x00}));
+  EXPECT_EQ(plane("Starnight"), (Rgb8{0x93, 0x70, 0xDB}));
+  EXPECT_EQ(outline("DeepOcean"), (Rgb8{0xFF, 0x00, 0xFF}));
+  EXPECT_EQ(outline("Solarized"), (Rgb8{0xB5, 0x88, 0x00}));
+  EXPECT_EQ(plane("Tomorrow Night"), (Rgb8{0xB5, 0xBD, 0x68}));
+}
+
 TEST(ColorScheme, EveryNameFindsItsOwnScheme) {
   std::set<std::string_view> names;
   for (const ColorScheme& scheme : color_schemes()) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "image/ink.h"
+#include "image/projected_line.h"
 #include "trace/camera.h"
 
 namespace whittle {
@@ -23,10 +24,7 @@ class LineLayer {
   std::span<const Ink> inks() const { return inks_; }
 
  private:
-  Vec3 to_eye(Vec3 world) const;
-  bool clip(Vec3& a, Vec3& b) const;
-  Vec3 project(Vec3 p) const;
-  void draw_clipped(Vec3 a, Vec3 b, const Ink& ink);
+  void draw_projected(const ProjectedLine& line, const Ink& ink);
   void touch(int x, int y, Vec3 projected, double covered, const Ink& ink);
 
   const Camera& camera_;

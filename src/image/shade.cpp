@@ -13,19 +13,24 @@ Vec3f linear(Vec3f srgb) {
 }
 
 /// The studio's own colours: a light backdrop, a cool light grey for material, a warm one for cuts.
-constexpr ColorScheme kStudioScheme{
-    "", {250, 251, 252}, {218, 222, 228}, {196, 206, 218}, {231, 199, 165}, {196, 206, 218}};
+/// A drawing has one tone, and must stand out by that.
+constexpr ColorScheme kStudioScheme{"",
+                                    {250, 251, 252},
+                                    {218, 222, 228},
+                                    {196, 206, 218},
+                                    {231, 199, 165},
+                                    {196, 206, 218},
+                                    {86, 112, 146}};
 /// As in the studio, but flat white behind: the paper's pictures stand on white.
-constexpr ColorScheme kBlinnScheme{
-    "", {255, 255, 255}, {255, 255, 255}, {196, 206, 218}, {231, 199, 165}, {196, 206, 218}};
+constexpr ColorScheme kBlinnScheme{"",
+                                   {255, 255, 255},
+                                   {255, 255, 255},
+                                   {196, 206, 218},
+                                   {231, 199, 165},
+                                   {196, 206, 218},
+                                   {86, 112, 146}};
 
-// The studio's lights: directions in eye space (right, up, towards the viewer).
-constexpr Vec3f kKeyDirection{-0.5f, 0.6f, 0.85f}, kFillDirection{0.85f, 0.05f, 0.55f},
-    kRimDirection{0.35f, 0.45f, -0.85f};
-
-}  // namespace
-
-ColorScheme effective_scheme(const ShadeSettings& settings) {
+ColorScheme own_scheme(const ShadeSettings& settings) {
   if (settings.scheme != nullptr) return *settings.scheme;
   switch (settings.style) {
     case Style::kStudio:
@@ -36,6 +41,18 @@ ColorScheme effective_scheme(const ShadeSettings& settings) {
       break;
   }
   return color_schemes().front();
+}
+
+// The studio's lights: directions in eye space (right, up, towards the viewer).
+constexpr Vec3f kKeyDirection{-0.5f, 0.6f, 0.85f}, kFillDirection{0.85f, 0.05f, 0.55f},
+    kRimDirection{0.35f, 0.45f, -0.85f};
+
+}  // namespace
+
+ColorScheme effective_scheme(const ShadeSettings& settings) {
+  ColorScheme scheme = own_scheme(settings);
+  if (settings.is_drawing) scheme.front = scheme.back = scheme.lone = scheme.plane;
+  return scheme;
 }
 
 std::vector<Light> lights(const Camera& camera, const ShadeSettings& settings) {
@@ -73,7 +90,10 @@ Shader::Shader(const Camera& camera, std::span<const Appearance> appearances,
   const auto world_from_eye = [&](Vec3f v) {
     return normalize(p.rays.right * v.x + p.rays.up * v.y - p.rays.forward * v.z);
   };
-  p.headlight = world_from_eye({-1, 1, 1});
+  if (settings.is_drawing)
+    p.ambient = 1;
+  else
+    p.headlight = world_from_eye({-1, 1, 1});
   p.key = world_from_eye(kKeyDirection);
   p.fill = world_from_eye(kFillDirection);
   p.rim = world_from_eye(kRimDirection);

@@ -32,6 +32,8 @@ struct ShadeSettings {
   const CutFaces* cut_faces = nullptr;
   /// kOpenscad: the primitive that is all of the solid, if it is one; it has a colour of its own.
   std::optional<uint32_t> lone_primitive;
+  /// The model is a drawing: it has the scheme's colour for those, in kOpenscad without any light.
+  bool is_drawing = false;
   /// kStudio, kBlinn: lights reach only what they see. Then the studio's key light has sharp edges.
   bool shadows = false;
   Box casters;  ///< with shadows: finite, holds all that casts them

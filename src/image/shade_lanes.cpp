@@ -51,10 +51,10 @@ HWY_INLINE Real where_lit(const Seen& s, uint32_t bit, Real v) {
   return hn::IfThenZeroElse(hn::RebindMask(D(), dark), v);
 }
 
-// OpenSCAD: rgb = base * (0.2 + |n.l|), two opposite lights fixed to the camera.
+// OpenSCAD: rgb = base * (ambient + |n.l|), two opposite lights fixed to the camera.
 struct Openscad {
   static HWY_INLINE Real3 color(const ShadeParameters& p, const Seen& s) {
-    return scale(s.base, hn::Add(set(0.2f), hn::Abs(dot(s.normal, set(p.headlight)))));
+    return scale(s.base, hn::Add(set(p.ambient), hn::Abs(dot(s.normal, set(p.headlight)))));
   }
 };
 

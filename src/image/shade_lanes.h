@@ -23,7 +23,8 @@ struct ShadeParameters {
   Style style = Style::kStudio;
   float inverse_height = 1;    ///< of the picture
   Vec3f light_from_eye;        ///< kBlinn
-  Vec3f headlight;             ///< kOpenscad: one of its two opposite directions
+  Vec3f headlight;             ///< kOpenscad: one of its two opposite directions; zero: it is off
+  float ambient = 0.2f;        ///< kOpenscad: what reaches every surface
   Vec3f key, fill, rim;        ///< kStudio: unit, from the surface to the light
   Vec3f top, bottom;           ///< background
   bool has_shadows = false;    ///< kStudio: the key light is a point

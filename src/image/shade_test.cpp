@@ -109,6 +109,32 @@ TEST(Shade, OpenscadHasAColorForALonePrimitive) {
   EXPECT_EQ(shade_one(top, default_camera(), kAppearances, settings), (Rgb8{66, 113, 175}));
 }
 
+TEST(Shade, OpenscadPaintsADrawingInOneColorThatNoLightFallsOn) {
+  ShadeSettings settings = styled(Style::kOpenscad);
+  settings.is_drawing = true;
+  for (const float side : {1.0f, -1.0f})
+    for (const uint32_t id : {1u, 2u, 3u, 999u})
+      EXPECT_EQ(shade_one({30, id, {0, 0, side}}, default_camera(), kAppearances, settings),
+                (Rgb8{0x00, 0xBF, 0x99}));
+  settings.scheme = find_color_scheme("Tomorrow");
+  settings.lone_primitive = 1;
+  EXPECT_EQ(shade_one({30, 1, {0, 0, 1}}, default_camera(), kAppearances, settings),
+            (Rgb8{0x71, 0x8C, 0x00}));
+}
+
+TEST(Shade, OtherStylesKeepTheColorsOfADrawing) {
+  for (const Style style : {Style::kStudio, Style::kBlinn}) {
+    const auto seen = [&](uint32_t id, bool is_drawing) {
+      ShadeSettings settings = styled(style);
+      settings.is_drawing = is_drawing;
+      return shade_one({30, id, {0, 0, 1}}, default_camera(), kAppearances, settings);
+    };
+    EXPECT_EQ(seen(3, true), seen(3, false)) << "color() is there";
+    EXPECT_LT(seen(1, true).r, seen(1, false).r - 40) << "it must stand out from a light backdrop";
+    EXPECT_EQ(seen(1, true), seen(2, true)) << "there are no cuts";
+  }
+}
+
 TEST(Shade, ASchemeReplacesTheColorsInEveryStyle) {
   for (const Style style : kAllStyles) {
     ShadeSettings settings = styled(style);

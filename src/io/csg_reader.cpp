@@ -18,6 +18,7 @@
 #include "io/csg_values.h"
 #include "io/csg_views.h"
 #include "io/document_builder.h"
+#include "io/statement_counter.h"
 
 namespace whittle {
 namespace {
@@ -40,7 +41,9 @@ class CsgReader {
       return Error{ErrorKind::kInput, message_at(file_, lexer_.mistake()->where,
                                                  "error: " + lexer_.mistake()->message)};
     }
-    return builder_.finish();
+    Document document = builder_.finish();
+    document.counts = counter_.counts();
+    return document;
   }
 
  private:
@@ -76,6 +79,7 @@ class CsgReader {
   CsgLexer lexer_;
   Warnings& warnings_;
   DocumentBuilder builder_;
+  StatementCounter counter_;
   Constants constants_;
   std::vector<OpenStatement> stack_;
   CsgArguments arguments_;
@@ -186,6 +190,7 @@ bool CsgReader::read_statement() {
   }
 
   builder_.count(type.meaning);
+  counter_.count(type, name, modifiers);
   const OpenStatement& parent = stack_.back();
   OpenStatement open{.scope = parent.scope};
   open.drops_children = parent.drops_children || modifiers.disabled;

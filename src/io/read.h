@@ -16,6 +16,7 @@
 #include "base/result.h"
 #include "model/facets.h"
 #include "model/model.h"
+#include "model/statement_counts.h"
 #include "model/warnings.h"
 
 namespace whittle {
@@ -52,6 +53,8 @@ struct ReadOptions {
   std::optional<std::string> folder{};
   /// With it only files in this folder tree are read for the text, all links resolved.
   std::optional<std::string> import_root{};
+  /// Whether a drawing gets its outlines (Drawing).
+  bool outlines = false;
   /// The exact box of a solid (subdivide/solid_bounds.h), for resize(); without it bounds() stand
   /// for it.
   std::function<Box(const Model&)> solid_box{};
@@ -61,6 +64,7 @@ struct ReadOptions {
 /// What was read.
 struct Read {
   Model model;
+  StatementCounts counts;  ///< of the text, as it is written
   /// Full messages, `file:line:column: warning: ...`: of what is written in the order of the file,
   /// then likewise of what has become of it. Many of one kind are summed up in one line.
   std::vector<std::string> warnings;

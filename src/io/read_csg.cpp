@@ -28,6 +28,7 @@ Result<Read> read_csg(std::string_view text, const std::string& file_name,
                              .most_facets = options.limits.facets,
                              .threads = options.threads,
                              .read_file = nullptr,
+                             .outlines = options.outlines,
                              .solid_box = options.solid_box};
   if (options.folder) {
     evaluating.read_file = [&, read = named_files(*options.folder, options.import_root,
@@ -37,6 +38,7 @@ Result<Read> read_csg(std::string_view text, const std::string& file_name,
       return read(name);
     };
   }
+  StatementCounts counts = std::move(document->counts);
   Result<Model> model = evaluate(std::move(*document), evaluating, warnings);
   if (!model) return model.error();
   const std::optional<Unsupported> unsupported = warnings.unsupported();
@@ -45,8 +47,8 @@ Result<Read> read_csg(std::string_view text, const std::string& file_name,
     refusal =
         message_at(file_name, unsupported->where, fmt::format("error: {}", unsupported->message));
   }
-  return Read{std::move(*model), warnings.take(), unsupported, std::move(refusal),
-              std::move(files)};
+  return Read{std::move(*model), std::move(counts),  warnings.take(),
+              unsupported,       std::move(refusal), std::move(files)};
 }
 
 }  // namespace whittle

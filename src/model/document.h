@@ -14,6 +14,7 @@
 
 #include "model/facets.h"
 #include "model/model.h"
+#include "model/statement_counts.h"
 
 namespace whittle {
 
@@ -109,6 +110,7 @@ struct Document {
   std::vector<Leaf> leaves;
   std::vector<Operation> operations;
   std::vector<uint32_t> leaf_ids, operation_ids;  ///< one a leaf and one an operation
+  StatementCounts counts;
 };
 
 }  // namespace whittle

@@ -291,6 +291,11 @@ Bounds bounds(const Model& model) {
   return {.box = reach, .bounded = false};
 }
 
+Box seen_box(const Model& model, Box box) {
+  if (model.drawing && !box.is_empty()) box.lo.z = box.hi.z = 0;
+  return box;
+}
+
 double tolerance(const Bounds& bounds) {
   return bounds.box.is_empty() ? 0 : kRelativeTolerance * longest_edge(bounds);
 }

@@ -67,6 +67,9 @@ struct Bounds {
 /// operand's box. Exact boxes for every primitive under its transform.
 Bounds bounds(const Model& model);
 
+/// The part of a model's box that is seen: of a drawing what is in its plane.
+Box seen_box(const Model& model, Box box);
+
 /// The exact box of one primitive where it stands; empty if it is. A half-space whose plane is
 /// square to an axis is half of everything, any other is everything. Their union is OpenSCAD's
 /// preview box, as bounds() with every operand in full; for framing.

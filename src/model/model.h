@@ -109,6 +109,14 @@ struct FileView {
   std::optional<double> fov_degrees;     ///< $vpf, vertical
 };
 
+/// A model that is flat: its primitives are a slab about the plane z = 0, and what is seen is where
+/// the slab meets that plane.
+struct Drawing {
+  /// Closed loops around all of it together, with OpenSCAD's fragments; none unless they were asked
+  /// for.
+  std::vector<std::vector<Vec2>> outlines;
+};
+
 struct Model {
   std::string file;         ///< for messages; "<stdin>" for standard input
   std::vector<Node> nodes;  ///< preorder; nodes[0] is the implicit union of all statements
@@ -117,6 +125,7 @@ struct Model {
   std::vector<Primitive> primitives;  ///< in file order; ids rise, `*` leaves gaps
   uint32_t statement_count = 0;       ///< primitive statements in the file; ids are 1..this
   FileView view;
+  std::optional<Drawing> drawing;  ///< if it is one
 };
 
 /// True if the shape is the empty set: a size that is not positive, or not finite (csg-format 2.6).

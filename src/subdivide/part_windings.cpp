@@ -30,6 +30,7 @@ void PartWindings::relate(const BspTree::Node& node, const CellPolygons& in, con
   if (front.root == back.root) return;
   Member &a = members_[front.root], &b = members_[back.root];
   if (a.is_known && b.is_known) return;
+  --sets_;
   // w(back) = w(front) + jump.
   const int b_less_a = front.more + node.jump - back.more;
   if (b.is_known) {
@@ -41,54 +42,54 @@ void PartWindings::relate(const BspTree::Node& node, const CellPolygons& in, con
   }
 }
 
-/// Looks up every set by that of its probes which is the farthest from planes, if it is far enough.
-/// Whether all are known then.
-bool PartWindings::look_up(const Boundary& boundary, const CellBox& cell, double least_distance) {
-  best_.assign(members_.size(), UINT32_MAX);
-  for (uint32_t i = 0; i < members_.size(); ++i) {
-    uint32_t& best = best_[find_root(i).root];
-    if (best == UINT32_MAX || members_[i].distance > members_[best].distance) best = i;
+/// Looks up the set of the part that a point is in, unless it is known, or the point is too near a
+/// plane.
+void PartWindings::probe(Vec3 q, double least_distance, const Around& around) {
+  const uint32_t part = around.tree.part_at(0, q, around.polygons);
+  const Place at = find_root(part);
+  Member& root = members_[at.root];
+  if (root.is_known) return;
+  double distance = kInfinity;
+  for (const CellPolygons::Plane& plane : around.polygons.planes)
+    distance = std::min(distance, std::fabs(plane.at(q)));
+  if (!(distance > least_distance)) {
+    if (distance > root.distance) root.probe = q, root.distance = distance, root.probed = part;
+    return;
   }
-  bool all = true;
-  for (uint32_t root = 0; root < members_.size(); ++root) {
-    Member& member = members_[root];
-    const uint32_t best = best_[root];
-    if (best == UINT32_MAX || member.is_known) continue;
-    if (!(members_[best].distance > least_distance)) {
-      all = false;
-      continue;
-    }
-    member.is_known = true;
-    member.winding = boundary.winding(cell.center + members_[best].probe) - find_root(best).more;
-  }
-  return all;
+  root.is_known = true;
+  root.winding = around.boundary.winding(around.cell.center + q) - at.more;
+  ++known_;
 }
 
 void PartWindings::find(const Boundary& boundary, const CellBox& cell, const CellPolygons& in,
                         const BspTree& tree) {
+  const Around around{boundary, cell, in, tree};
   members_.resize(tree.parts());
-  for (uint32_t i = 0; i < members_.size(); ++i) members_[i] = {i, 0, {}, -1, false, 0};
-  const auto probe = [&](Vec3 q) {
-    double distance = kInfinity;
-    for (const CellPolygons::Plane& plane : in.planes)
-      distance = std::min(distance, std::fabs(plane.at(q)));
-    Member& member = members_[tree.part_at(0, q, in)];
-    if (distance > member.distance) member.probe = q, member.distance = distance;
-  };
-  for (const BspTree::Node& node : tree.nodes())
-    for (const double side : {0.5, -0.5})
-      probe(node.sample + in.planes[node.plane].n * (side * node.room));
+  for (uint32_t i = 0; i < members_.size(); ++i) members_[i] = {.parent = i};
+  sets_ = members_.size();
+  known_ = 0;
   const double enough = 4 * in.slack;
   for (const BspTree::Node& node : tree.nodes())
     if (node.room > enough) relate(node, in, tree);
-  if (!look_up(boundary, cell, enough)) {
-    for (size_t i = 0; i < kCellProbes.size(); ++i) probe(cell_probe(i, cell.half));
-    look_up(boundary, cell, enough);
+  for (const BspTree::Node& node : tree.nodes()) {
+    if (known_ == sets_) break;
+    for (const double side : {0.5, -0.5})
+      probe(node.sample + in.planes[node.plane].n * (side * node.room), enough, around);
   }
-  for (const BspTree::Node& node : tree.nodes())
-    if (!(node.room > enough)) relate(node, in, tree);
-  // Nothing in the cell has room.
-  look_up(boundary, cell, -kInfinity);
+  for (size_t i = 0; i < kCellProbes.size() && known_ < sets_; ++i)
+    probe(cell_probe(i, cell.half), enough, around);
+  if (known_ < sets_) {
+    for (const BspTree::Node& node : tree.nodes())
+      if (!(node.room > enough)) relate(node, in, tree);
+    // Where nothing in the cell has room.
+    for (Member& member : members_) {
+      const Place at = find_root(member.probed);
+      Member& root = members_[at.root];
+      if (root.is_known || member.distance < 0) continue;
+      root.is_known = true;
+      root.winding = boundary.winding(cell.center + member.probe) - at.more;
+    }
+  }
   winding_.resize(members_.size());
   for (uint32_t i = 0; i < members_.size(); ++i) {
     const Place at = find_root(i);

@@ -24,24 +24,32 @@ class PartWindings {
  private:
   /// A part, in a set of parts whose differences are known (union-find).
   struct Member {
-    uint32_t parent;  ///< itself if it is the root
-    int more;         ///< its winding number less the parent's
-    Vec3 probe;       ///< a point of it,
-    double distance;  ///< and how far that is from all planes nearby; negative: none
-    bool is_known;    ///< roots: the whole set is
-    int winding;      ///< if it is
+    uint32_t parent = 0;    ///< itself if it is the root
+    int more = 0;           ///< its winding number less the parent's
+    bool is_known = false;  ///< roots: the whole set is,
+    int winding = 0;        ///< and what it is here
+    // The best of the points that were too near a plane.
+    Vec3 probe = {};
+    double distance = -1;  ///< from the plane; negative: there was none
+    uint32_t probed = 0;   ///< the part it is in
   };
   struct Place {
     uint32_t root;
     int more;
   };
+  struct Around {
+    const Boundary& boundary;
+    const CellBox& cell;
+    const CellPolygons& polygons;
+    const BspTree& tree;
+  };
 
   Place find_root(uint32_t part);
   void relate(const BspTree::Node& node, const CellPolygons& in, const BspTree& tree);
-  bool look_up(const Boundary& boundary, const CellBox& cell, double least_distance);
+  void probe(Vec3 q, double least_distance, const Around& around);
 
   std::vector<Member> members_;
-  std::vector<uint32_t> best_;  ///< by root: the part whose probe is the farthest from planes
+  size_t sets_ = 0, known_ = 0;
   std::vector<int> winding_;
 };
 

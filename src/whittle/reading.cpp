@@ -10,7 +10,7 @@ Box tight_box(const Model& model) {
   const Bounds around = bounds(model);
   if (!around.bounded || around.box.is_empty()) return around.box;
   const Result<Scene> scene = lower(model);
-  return scene ? solid_bounds(*scene, 0).box : around.box;
+  return seen_box(model, scene ? solid_bounds(*scene, 0).box : around.box);
 }
 
 }  // namespace whittle

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,11 +12,13 @@
 #include "gpu/devices.h"
 #include "image/antialias.h"
 #include "image/cut_faces.h"
+#include "image/draw_outlines.h"
 #include "lower/lower.h"
 #include "model/instances.h"
 #include "subdivide/solid_bounds.h"
 #include "subdivide/threshold.h"
 #include "trace/closeness.h"
+#include "trace/drawing_tracer.h"
 #include "trace/oracle/oracle.h"
 #include "trace/pixel_threshold.h"
 #include "trace/vulkan/raster.h"
@@ -59,8 +62,9 @@ struct Renderer::State {
   std::optional<Camera> looked_from;  ///< the last camera that was asked how closely it looks
   std::unique_ptr<Tracer> scout;      ///< made when a camera may look more closely
   std::unique_ptr<Tracer> tracer;
-  CpuTracer* cpu = nullptr;        ///< the tracer, if it is that one
-  RasterTracer* raster = nullptr;  ///< or that one
+  std::unique_ptr<DrawingTracer> drawing;  ///< over the tracer, if the model is one
+  CpuTracer* cpu = nullptr;                ///< the tracer, if it is that one
+  RasterTracer* raster = nullptr;          ///< or that one
   Refine refine = Refine::kWhereRaysCome;
   bool is_auto = false;  ///< nobody chose the backend
   std::shared_ptr<RasterDevice> device;
@@ -73,6 +77,9 @@ struct Renderer::State {
   /// For as many rays as the camera has, or more if it looks closely at a part.
   Status make_tracer(const Camera& camera);
   Status make_tracer(const Camera& camera, double rays);
+  Status make_backend(const Camera& camera, double rays);
+  /// What pictures are made with.
+  Tracer& seen();
   /// With a pixel threshold: makes the cells what they are for another camera. And makes finer ones
   /// for one that looks more closely.
   Status look_from(const Camera& camera);
@@ -135,14 +142,20 @@ Camera Renderer::camera(const ViewOptions& options, GimbalView* view) {
   Box framed;
   if (frames_the_solid(options, file)) {
     const SolidBounds solid = solid_bounds(s.scene, s.settings.threads);
-    framed = solid.bounded ? solid.box : bounds(s.model).box;
+    framed = seen_box(s.model, solid.bounded ? solid.box : bounds(s.model).box);
   }
   s.times.frame = watch.milliseconds();
   if (view) *view = gimbal_view(options, file, framed);
   return make_camera(options, file, framed);
 }
 
+Tracer& Renderer::State::seen() {
+  WHITTLE_CHECK(tracer);
+  return drawing ? *drawing : *tracer;
+}
+
 void Renderer::State::discard() {
+  drawing.reset();
   tracer.reset();
   cpu = nullptr;
   raster = nullptr;
@@ -157,6 +170,13 @@ Status Renderer::State::make_tracer(const Camera& camera) {
 }
 
 Status Renderer::State::make_tracer(const Camera& camera, double rays) {
+  const Status made = make_backend(camera, rays);
+  if (made && model.drawing)
+    drawing = std::make_unique<DrawingTracer>(*tracer, bounds(model).box, workers);
+  return made;
+}
+
+Status Renderer::State::make_backend(const Camera& camera, double rays) {
   discard();
   if (settings.backend == Backend::kOracle) {
     tracer = make_oracle_tracer(model, settings.threads);
@@ -253,10 +273,10 @@ Result<Frame> Renderer::trace(const Camera& camera, const Progress& progress) {
       !looks && !state_->falls_back(looks.error(), camera))
     return looks.error();
   const Stopwatch watch;
-  Frame frame = tracer().render(camera, progress);
+  Frame frame = state_->seen().render(camera, progress);
   if (const Status status = tracer().status(); !status) {
     if (!state_->falls_back(status.error(), camera)) return status.error();
-    frame = tracer().render(camera, progress);
+    frame = state_->seen().render(camera, progress);
   }
   state_->times.trace = watch.milliseconds();
   return frame;
@@ -274,14 +294,20 @@ Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
     look.cut_faces = &*s.cut_faces;
     look.lone_primitive = lone_primitive(s.model);
   }
-  if (look.shadows) look.casters = view_region(bounds(s.model));
+  look.is_drawing = s.model.drawing.has_value();
+  // On a plane there are none.
+  if (look.shadows && !s.model.drawing) look.casters = view_region(bounds(s.model));
   const auto shaded = [&] {
-    return shade_antialiased(tracer(), camera, frame, s.looks, look, antialias, s.workers);
+    return shade_antialiased(s.seen(), camera, frame, s.looks, look, antialias, s.workers);
   };
   Picture picture = shaded();
   if (const Status status = tracer().status(); !status) {
     if (!s.falls_back(status.error(), camera)) return status.error();
     picture = shaded();
+  }
+  if (look.is_drawing && look.style == Style::kOpenscad) {
+    const Rgb8 color = effective_scheme(look).outline;
+    draw_outlines(*s.model.drawing, camera, color, std::max(antialias, 1), picture);
   }
   s.times.shade = watch.milliseconds();
   return picture;

@@ -94,6 +94,53 @@ TEST(Renderer, StyleOpenscadPaintsWhatTheSolidHoldsNotWhatOwnsIt) {
   EXPECT_GT(top[1], top[0]) << "green, not yellow";
 }
 
+constexpr const char* kDrawing =
+    "difference() { square([20, 10]); translate([5, 5]) circle(3); } translate([30, 5]) circle(4);";
+
+TEST(Renderer, ADrawingIsFramedAndSeenInItsPlane) {
+  const Model model = model_of(kDrawing);
+  const Camera camera = camera_of(model, small_view());
+  // d = (diagonal / 2) / sin(fov / 2), looking at the middle of the flat box.
+  EXPECT_NEAR(length(camera.eye - Vec3{17, 5, 0}),
+              std::hypot(17.0, 5.0) / std::sin(11.25 / 180 * std::acos(-1.0)), 1e-4);
+  for (const Backend backend : {Backend::kCpu, Backend::kOracle}) {
+    const Frame frame = frame_of(model, {.backend = backend, .subdivide = {}});
+    size_t seen = 0;
+    for (int y = 0; y < 24; ++y) {
+      for (int x = 0; x < 24; ++x) {
+        const Hit& hit = frame.at(x, y);
+        if (!hit.hit()) continue;
+        ++seen;
+        const Ray ray = camera.ray(x + 0.5, y + 0.5);
+        EXPECT_NEAR(ray.origin.z + ray.direction.z * double(hit.distance), 0, 1e-4);
+        EXPECT_EQ(hit.normal, (Vec3f{0, 0, 1}));
+      }
+    }
+    EXPECT_GT(seen, 30u);
+  }
+}
+
+TEST(Renderer, StyleOpenscadDrawsOutlinesWhereTheyAreThere) {
+  ReadOptions options;
+  options.outlines = true;
+  const Model with = read_csg(kDrawing, "<test>", options)->model, without = model_of(kDrawing);
+  const auto red_pixels = [](const Model& model, Style style) {
+    Result<Renderer> renderer = Renderer::make(model, {});
+    const Camera camera = renderer->camera(small_view());
+    EXPECT_TRUE(renderer->prepare(camera));
+    ShadeSettings settings;
+    settings.style = style;
+    const Picture picture = *renderer->shade(*renderer->trace(camera), camera, settings, 1);
+    size_t count = 0;
+    for (size_t i = 0; i < picture.rgba.size(); i += 4)
+      count += picture.rgba[i] == 255 && picture.rgba[i + 1] == 0;
+    return count;
+  };
+  EXPECT_GT(red_pixels(with, Style::kOpenscad), 40u);
+  EXPECT_EQ(red_pixels(without, Style::kOpenscad), 0u);
+  EXPECT_EQ(red_pixels(with, Style::kStudio), 0u);
+}
+
 TEST(Renderer, AutoIsABackendThatIsNamed) {
   const Model model = model_of(kPart);
   Result<Renderer> renderer = Renderer::make(model, {});

@@ -59,6 +59,7 @@ ReadOptions reading_of(const LoadOptions& o) {
                      .facets = o.most_facets},
           .folder = std::nullopt,
           .import_root = std::nullopt,
+          .outlines = o.outlines,
           .solid_box = tight_box};
 }
 
@@ -136,8 +137,8 @@ std::uint32_t Solid::statement_count() const {
 std::optional<std::array<Point, 2>> Solid::bounds() const {
   const Bounds& b = state_->bounds;
   if (!b.bounded || b.box.is_empty()) return std::nullopt;
-  return std::array<Point, 2>{
-      {{b.box.lo.x, b.box.lo.y, b.box.lo.z}, {b.box.hi.x, b.box.hi.y, b.box.hi.z}}};
+  const Box box = seen_box(state_->read.model, b.box);
+  return std::array<Point, 2>{{{box.lo.x, box.lo.y, box.lo.z}, {box.hi.x, box.hi.y, box.hi.z}}};
 }
 
 Rendering Solid::render(const RenderOptions& options) const {

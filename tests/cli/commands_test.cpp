@@ -1,6 +1,8 @@
 // info, cells, compare, bench and model.
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "image/png.h"
 #include "support/program.h"
@@ -39,9 +41,12 @@ TEST_F(Info, JsonCountsWhatIsInTheModel) {
   const Json info = Json::parse(good({"info", "part.csg", "--json"}).out);
   EXPECT_EQ(info["file"], "part.csg");
   EXPECT_EQ(info["statements"], 5);
-  EXPECT_EQ(info["nodes"]["difference"], 1);
-  EXPECT_EQ(info["nodes"]["transform"], 1);
-  EXPECT_EQ(info["nodes"]["primitive"], 5);
+  EXPECT_EQ(
+      info["nodes"],
+      Json({{"cube", 2}, {"sphere", 2}, {"cylinder", 1}, {"difference", 1}, {"multmatrix", 1}}));
+  EXPECT_EQ(info["model_nodes"]["difference"], 1);
+  EXPECT_EQ(info["model_nodes"]["transform"], 1);
+  EXPECT_EQ(info["model_nodes"]["primitive"], 5);
   EXPECT_EQ(info["primitives"]["cube"], 2);
   EXPECT_EQ(info["primitives"]["sphere"], 2);
   EXPECT_EQ(info["primitives"]["cylinder"], 1);
@@ -63,11 +68,66 @@ TEST_F(Info, JsonCountsWhatIsInTheModel) {
 TEST_F(Info, TextSaysTheSame) {
   const Ended info = good({"info", "part.csg"});
   for (const char* part :
-       {"statements   5\n", "primitives   cube 2, sphere 2, cylinder 1; 3 curved\n",
+       {"statements   5\n",
+        "nodes        cube 2, sphere 2, cylinder 1, difference 1, multmatrix 1\n",
+        "marked       background (%) 1\n",
+        "evaluated    union 1, difference 1, transform 1, primitive 5\n",
+        "primitives   cube 2, sphere 2, cylinder 1; 3 curved\n",
         "in the solid 4 primitives, 1 of them empty\n", "half-spaces  9 for 10 faces, 1 merged\n",
         "bounds       [-10, -10, -10] to [10, 10, 10]\n", "tolerance    4e-05\n",
         "warnings     0\n"})
     EXPECT_NE(info.out.find(part), std::string::npos) << part << "\n" << info.out;
+}
+
+/// Words before brackets, outside of strings and comments.
+std::map<std::string, size_t> words_before_brackets(std::string text) {
+  text =
+      std::regex_replace(text, std::regex(R"re("(\\.|[^"\\])*"|//[^\n]*|/\*[^]*?\*/)re"), "\"\"");
+  std::map<std::string, size_t> words;
+  const std::regex word(R"(([A-Za-z_]\w*)\s*\()");
+  for (std::sregex_iterator at(text.begin(), text.end(), word), end; at != end; ++at)
+    ++words[(*at)[1]];
+  return words;
+}
+
+TEST_F(Info, NodesAreThoseOfTheText) {
+  write("all.csg", R"(
+    // cube(1);  /* sphere(2); */
+    group() { linear_extrude(height = 2, $fn = 0) { text(text = "cube(3);", size = 4); }
+      %linear_extrude(height = 1) { polygon(points = [[0, 0], [1, 0], [0, 1]], paths = undef); }
+      *rotate_extrude(angle = 90) square(1);
+      rotate_extrude(angle = 90) { multmatrix([[1, 0, 0, 4], [0, 1, 0, 0]]) circle(r = 1); }
+      #hull() { sphere(1); translate([9, 0, 0]) sphere(2); cube(0); }
+      minkowski() { cube(3); cylinder(h = 1, r1 = 1, r2 = 1); }
+      render(convexity = 1) { intersection() { cube(1); group(); } }
+      resize(newsize = [1, 2, 3]) union() { cube(1); difference() { cube(1); sphere(1); } }
+      projection(cut = false) cube(1);
+      offset(r = 1) { fill() { square(2); } }
+      color([1, 0, 0, 1]) import(file = "no.stl"); surface(file = "no.dat");
+      polyhedron(points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+                 faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]);
+      halfspace(n = [0, 0, 1], d = 0); nothing_of_ours() { cube(1); }
+    })");
+  for (const char* file : {"all.csg", "part.csg"}) {
+    const Json info = Json::parse(run({"info", file, "--json", "-q"}).out);
+    EXPECT_EQ(info["nodes"], Json(words_before_brackets(read(file)))) << file;
+  }
+  const Json marks = Json::parse(run({"info", "all.csg", "--json", "-q"}).out);
+  EXPECT_EQ(marks["background_nodes"], 1);
+  EXPECT_EQ(marks["highlight_nodes"], 1);
+  EXPECT_EQ(marks["disabled_nodes"], 1);
+  EXPECT_EQ(marks["root_nodes"], 0);
+  EXPECT_GT(marks["nodes"].size(), 20u);
+}
+
+TEST_F(Info, ADrawingIsCalledOne) {
+  const RunSettings flat{.in = "square([3, 2]);"};
+  EXPECT_NE(good({"info", "-"}, flat).out.find("; a drawing\n"), std::string::npos);
+  const Json info = Json::parse(good({"info", "-", "--json"}, flat).out);
+  EXPECT_EQ(info["drawing"], true);
+  EXPECT_EQ(info["bounds"]["lo"], Json({0.0, 0.0, 0.0}));
+  EXPECT_EQ(info["bounds"]["hi"], Json({3.0, 2.0, 0.0}));
+  EXPECT_EQ(Json::parse(good({"info", "part.csg", "--json"}).out)["drawing"], false);
 }
 
 TEST_F(Info, UnboundedAndEmptySolidsAreCalledSo) {

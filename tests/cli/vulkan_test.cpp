@@ -65,6 +65,12 @@ TEST_F(Vulkan, ShowsWhatTheCpuShows) {
   EXPECT_EQ(run({"compare", "cpu.exr", "raster.exr"}).exit_code, 0);
 }
 
+TEST_F(Vulkan, ShowsOfADrawingWhatTheCpuShows) {
+  write("part.csg", "square([20, 10]); translate([9, 9]) circle(4); text(\"a\");\n");
+  render("cpu", "cpu.exr"), render("vulkan-raster", "raster.exr");
+  EXPECT_EQ(run({"compare", "cpu.exr", "raster.exr"}).exit_code, 0);
+}
+
 TEST_F(Vulkan, BenchHasThePapersQuantities) {
   for (const char* rules : {"--quiet", "--paper"}) {
     const Ended done = run({"bench", "part.csg", "--json", "--repeat", "2", "--imgsize", "48,36",

@@ -24,7 +24,8 @@ ReadOptions small_limits(Curves curves) {
       .curves = curves,
       .limits = {.bytes = 1 << 20, .depth = 3000, .nodes = 5000, .values = 20000, .facets = 3000},
       // Without a folder: no files are read.
-      .folder = std::nullopt};
+      .folder = std::nullopt,
+      .outlines = true};
 }
 
 // Messages.
@@ -202,6 +203,15 @@ void check_tree(const Model& model) {
   require(primitives == model.primitives.size(), "a primitive that no node names");
 }
 
+void check_outlines(const Model& model) {
+  if (!model.drawing) return;
+  for (const std::vector<Vec2>& outline : model.drawing->outlines) {
+    require(outline.size() >= 3, "an outline without an inside");
+    for (const Vec2 p : outline)
+      require(std::isfinite(p.x) && std::isfinite(p.y), "an outline that is not finite");
+  }
+}
+
 void check_primitives(const Model& model, const ReadOptions& limits) {
   // What is under `%` costs nothing, and so counts nothing.
   std::vector<uint8_t> is_solid(model.primitives.size(), 0);
@@ -287,6 +297,7 @@ void check(std::string_view text) {
     require(is_warning(warning, text), "a warning of another form: " + warning);
   require(!read->unsupported || !read->warnings.empty(), "not understood, without a warning");
   check_tree(read->model);
+  check_outlines(read->model);
   check_primitives(read->model, limits);
   check_what_follows(read->model);
 }

@@ -31,6 +31,10 @@ void expect_empty_to_openscad(const std::string& file);
 /// All that is asked of one picture.
 void expect_the_same(const std::string& file, const std::string& options);
 
+/// Of a file that is flat at the top: at edges and outlines, too, all but a few pixels must be
+/// equal.
+void expect_the_same_drawing(const std::string& file, const std::string& options);
+
 /// The pixels at which whittle sees a surface.
 size_t hits(const Frame& facts);
 

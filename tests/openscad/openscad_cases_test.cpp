@@ -21,7 +21,7 @@ namespace {
 struct Case {
   std::string name;
   std::string pixels;    ///< a side
-  std::string expected;  ///< picture, empty or alone: see manifest.txt
+  std::string expected;  ///< picture, drawing, empty or alone: see manifest.txt
 };
 
 struct Group {
@@ -67,6 +67,10 @@ TEST_P(Cases, LookAsInOpenscad) {
       expect_the_same(file, options);
       continue;
     }
+    if (one.expected == "drawing") {
+      expect_the_same_drawing(file, options);
+      continue;
+    }
     SCOPED_TRACE(file);
     Look look;
     look_at_ours(file, options, look);
@@ -86,7 +90,8 @@ TEST(CasesManifest, NamesEveryFileOnce) {
   std::set<std::string> named;
   for (const Case& one : manifest()) {
     EXPECT_TRUE(named.insert(one.name).second) << one.name << " twice";
-    EXPECT_TRUE(one.expected == "picture" || one.expected == "empty" || one.expected == "alone")
+    EXPECT_TRUE(one.expected == "picture" || one.expected == "drawing" || one.expected == "empty" ||
+                one.expected == "alone")
         << one.name << ": " << one.expected;
   }
   std::set<std::string> there;

@@ -89,6 +89,20 @@ TEST(Openscad, CamerasGivenToTheLastNumber) {
     expect_the_same(file, options);
 }
 
+TEST(Openscad, Drawings) {
+  const std::string file = WHITTLE_MODELS "/drawing.csg";
+  for (const char* options : {
+           "--imgsize=256,256",
+           "--imgsize=320,200 --projection=ortho",
+           "--imgsize=256,256 --camera=2,1,3,60,15,200,45 --viewall",
+           "--imgsize=200,300 --camera=2,1,3,130,0,40,45 --viewall --autocenter --projection=o",
+           "--imgsize=256,256 --camera=-30,50,20,1,2,3 --viewall --autocenter",
+           "--imgsize=256,256 --camera=0,0,0,0,0,0,90",
+           "--imgsize=256,256 --camera=4,2,0,80,0,25,7",
+       })
+    expect_the_same_drawing(file, options);
+}
+
 TEST(Openscad, ColorSchemes) {
   for (const char* scheme :
        {"Cornfield", "Metallic", "Sunset", "Starnight", "BeforeDawn", "Nature", "DeepOcean",
@@ -96,6 +110,7 @@ TEST(Openscad, ColorSchemes) {
     const std::string options = std::string("--imgsize=128,128 --colorscheme=") + scheme;
     expect_the_same(WHITTLE_MODELS "/flush_pocket.csg", options);
     expect_the_same(WHITTLE_MODELS "/cube.csg", options);
+    expect_the_same_drawing(WHITTLE_MODELS "/drawing.csg", options);
   }
 }
 

@@ -1,0 +1,114 @@
+#include "trace/drawing_tracer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "trace/view.h"
+
+namespace whittle {
+namespace {
+
+/// A slab over a rectangle that is 4 wide and 2 deep, with its lowest corner at the origin and its
+/// left half of id 7. It answers nothing but a look straight down from above it.
+class RectangleSlab final : public Tracer {
+ public:
+  const char* name() const override { return "rectangle"; }
+  Frame render(const Camera&, const Progress&) override {
+    ADD_FAILURE() << "the pixels of a drawing are not those of its slab";
+    return {};
+  }
+  void probe(const Camera& camera, std::span<const PixelPosition> positions,
+             std::span<Hit> hits) override {
+    most_pixels = std::max(most_pixels, camera.width * camera.height);
+    for (size_t i = 0; i < positions.size(); ++i) {
+      const Ray ray = camera.ray(double(positions[i].x), double(positions[i].y));
+      EXPECT_EQ(ray.direction, (Vec3{0, 0, -1}));
+      EXPECT_GT(ray.origin.z, 0.5);
+      const Vec3 p = ray.origin;
+      const bool in = p.x > 0 && p.x < 4 && p.y > 0 && p.y < 2;
+      hits[i] = in ? Hit{float(p.z - 0.5), p.x < 2 ? 7u : 8u, {1, 0, 0}} : Hit{};
+    }
+  }
+  int most_pixels = 0;
+};
+
+const Box kRectangleBox{{0, 0, -0.5}, {4, 2, 0.5}};
+
+TEST(DrawingTracer, SeesThePlaneAndNotTheSlab) {
+  const Workers workers(2);
+  RectangleSlab slab;
+  DrawingTracer tracer(slab, kRectangleBox, workers);
+  EXPECT_STREQ(tracer.name(), "rectangle");
+  for (const char* text : {"1,1,0,55,0,25,20", "2,1,0,0,0,0,9", "2,1,0,140,10,25,9",
+                           "2,1,0,80,0,0,9", "1,1,-3,1.5,1.5,0", "2,1,0.5,3,2,0"}) {
+    for (const bool orthographic : {false, true}) {
+      ViewOptions view = *parse_camera(text);
+      view.width = 40, view.height = 30, view.orthographic = orthographic;
+      const Camera camera = make_camera(view, {}, kRectangleBox);
+      const Frame frame = tracer.render(camera);
+      int seen = 0;
+      for (int y = 0; y < 30; ++y) {
+        for (int x = 0; x < 40; ++x) {
+          const Ray ray = camera.ray(x + 0.5, y + 0.5);
+          const double t = -ray.origin.z / ray.direction.z;
+          const Vec3 p = ray.origin + ray.direction * t;
+          // Floats tell places apart that are a ten millionth of the picture from one another.
+          const double edge = std::min({std::fabs(p.x), std::fabs(p.x - 2), std::fabs(p.x - 4),
+                                        std::fabs(p.y), std::fabs(p.y - 2)});
+          if (edge < 1e-5) continue;
+          const bool in = t > ray.t_min && p.x > 0 && p.x < 4 && p.y > 0 && p.y < 2;
+          const Hit& hit = frame.at(x, y);
+          ASSERT_EQ(hit.id, !in ? 0u : p.x < 2 ? 7u : 8u) << text << ": " << x << ", " << y;
+          if (!in) continue;
+          ++seen;
+          EXPECT_FLOAT_EQ(hit.distance, float(t));
+          EXPECT_EQ(hit.normal, (Vec3f{0, 0, ray.direction.z < 0 ? 1.0f : -1.0f}));
+        }
+      }
+      EXPECT_GT(seen, 4) << text;
+    }
+  }
+}
+
+TEST(DrawingTracer, LooksAtAboutAPixelForEachRay) {
+  const Workers workers(1);
+  RectangleSlab slab;
+  DrawingTracer tracer(slab, kRectangleBox, workers);
+  ViewOptions view = *parse_camera("2,1,0,0,0,0,5");
+  view.width = 64, view.height = 64;
+  tracer.render(make_camera(view, {}, kRectangleBox));
+  EXPECT_GT(slab.most_pixels, 500);
+  EXPECT_LE(slab.most_pixels, 64 * 64);
+}
+
+TEST(DrawingTracer, SeesNothingOfThePlaneFromInIt) {
+  const Workers workers(1);
+  RectangleSlab slab;
+  DrawingTracer tracer(slab, kRectangleBox, workers);
+  ViewOptions view = *parse_camera("-5,1,0,2,1,0");
+  view.width = view.height = 9;
+  for (const Hit& hit : tracer.render(make_camera(view, {}, kRectangleBox)).hits)
+    EXPECT_FALSE(hit.hit());
+}
+
+TEST(DrawingTracer, SeesNothingOfThePlaneBehindTheEye) {
+  const Workers workers(1);
+  RectangleSlab slab;
+  DrawingTracer tracer(slab, kRectangleBox, workers);
+  ViewOptions view = *parse_camera("2,1,3,2,1.1,9");
+  view.width = view.height = 9;
+  for (const Hit& hit : tracer.render(make_camera(view, {}, kRectangleBox)).hits)
+    EXPECT_FALSE(hit.hit());
+}
+
+TEST(DrawingTracer, OfNothingNothingIsSeen) {
+  const Workers workers(1);
+  RectangleSlab slab;
+  DrawingTracer tracer(slab, Box{}, workers);
+  for (const Hit& hit : tracer.render(make_camera({}, {}, {})).hits) EXPECT_FALSE(hit.hit());
+  EXPECT_EQ(slab.most_pixels, 0);
+}
+
+}  // namespace
+}  // namespace whittle
