@@ -1,6 +1,7 @@
 #include "subdivide/cell_polygons.h"
 
 #include <algorithm>
+#include <array>
 
 namespace whittle {
 
@@ -41,8 +42,12 @@ void CellPolygons::add(const Scene& scene, const Boundary& boundary,
   const Vec3 a = boundary.point(triangle.corners[0]);
   const Vec3 normal =
       cross(boundary.point(triangle.corners[1]) - a, boundary.point(triangle.corners[2]) - a);
+  // Not by what of it is in the cell: a strip along the cell's side says where a wall there ends.
+  if (!(width_of(std::array{a, boundary.point(triangle.corners[1]),
+                            boundary.point(triangle.corners[2])}) > 4 * slack))
+    return;
   take(boundary, triangle, cell);
-  if (cut_.size() < 3 || !(width_of(cut_) > 4 * slack)) return;
+  if (cut_.size() < 3) return;
   const uint32_t plane = plane_of(scene, triangle.face, cell);
   const int outward = dot(normal, planes[plane].n) < 0 ? -1 : 1;
   polygons.push_back({uint32_t(corners.size()), uint32_t(cut_.size()), plane, outward});

@@ -37,8 +37,9 @@ struct CellPolygons {
   std::vector<Vec3> corners;
   std::vector<Polygon> polygons;
 
-  /// Takes those triangles of the boundary for which `reaching` calls its argument, a function of
-  /// an index into triangles().
+  /// Takes what is in the cell, or so near to it that planes of faces which are moved a little
+  /// could be: of a wall in the cell's side, say, also where it ends. Of those triangles of the
+  /// boundary for which `reaching` calls its argument, a function of an index into triangles().
   template <class Reaching>
   void collect(const Scene& scene, const Boundary& boundary, const CellBox& cell,
                const Reaching& reaching);
@@ -81,7 +82,9 @@ void CellPolygons::collect(const Scene& scene, const Boundary& boundary, const C
   });
   // Of the whole boundary the slack may be much more, and here it would hide what is small.
   for (const uint32_t i : reaching_) measure(scene, boundary, boundary.triangles()[i], cell);
-  for (const uint32_t i : reaching_) add(scene, boundary, boundary.triangles()[i], cell);
+  CellBox larger = cell;
+  larger.half += Vec3{1, 1, 1} * (2 * slack);
+  for (const uint32_t i : reaching_) add(scene, boundary, boundary.triangles()[i], larger);
 }
 
 }  // namespace whittle
