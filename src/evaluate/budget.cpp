@@ -5,6 +5,7 @@
 namespace whittle {
 
 std::string Budget::message() const {
+  if (is_tangled()) return "flat shapes up to this one have too many lines across one another";
   if (facets_ > most_) {
     return fmt::format(
         "with this shape the model has {} facets, more than the limit of {}; a smaller $fn gives "

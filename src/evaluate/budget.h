@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
+#include "flat/sweep_work.h"
 #include "model/model.h"
 
 namespace whittle {
@@ -28,16 +30,24 @@ class Budget {
     return work_ / kWork <= most_;
   }
 
-  bool is_spent() const { return facets_ > most_ || work_ / kWork > most_; }
+  /// False if outlines so far would take longer than kMostSweepWork to take apart where they cross
+  /// themselves or one another.
+  bool sweep(std::span<const Contour> outlines) {
+    sweep_ = saturated(sweep_, estimate_sweep_work(outlines));
+    return !is_tangled();
+  }
+
+  bool is_spent() const { return facets_ > most_ || work_ / kWork > most_ || is_tangled(); }
 
   /// Why it is spent, in words.
   std::string message() const;
 
  private:
   static constexpr uint64_t kWork = 30;
+  bool is_tangled() const { return sweep_ > kMostSweepWork; }
   static uint64_t saturated(uint64_t a, uint64_t b) { return a + b < a ? UINT64_MAX : a + b; }
 
-  uint64_t most_, facets_ = 0, work_ = 0;
+  uint64_t most_, facets_ = 0, work_ = 0, sweep_ = 0;
 };
 
 }  // namespace whittle

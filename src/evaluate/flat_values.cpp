@@ -136,7 +136,7 @@ Polygons FlatLeaves::operator()(const Polygon& polygon) const {
   if (contours.empty()) return {};
   Polygons as_written{std::move(contours)};
   if (std::optional<Contour> outline = convex_outline(as_written)) return {{std::move(*outline)}};
-  if (!budget_.work(corner_count(as_written))) return {};
+  if (!budget_.work(corner_count(as_written)) || !budget_.sweep(as_written.contours)) return {};
   return even_odd(as_written.contours);
 }
 
@@ -162,6 +162,10 @@ Polygons FlatLeaves::text(const Text& text, SourceLocation where) {
     warnings_.add("a font is not there", where,
                   fmt::format("the font {} is not there; {} stands for it", printable(text.font),
                               printable(*outline.replacement)));
+  std::vector<Contour> contours;
+  for (const std::vector<Contour>& glyph : outline.glyphs)
+    contours.insert(contours.end(), glyph.begin(), glyph.end());
+  if (!budget_.sweep(contours)) return {};
   return text_polygons(outline);
 }
 

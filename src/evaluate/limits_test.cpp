@@ -3,8 +3,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
+
+#include <fmt/format.h>
 
 #include "base/folder_for_test.h"
+#include "evaluate/budget.h"
 #include "evaluate/evaluate_test_support.h"
 
 namespace whittle {
@@ -118,6 +122,30 @@ TEST(EvaluationLimits, FacetsAreCountedBeforeTheyAreMade) {
     EXPECT_TRUE(message.starts_with("t.csg:1:")) << text << ": " << message;
     EXPECT_NE(message.find("--limit facets=N raises it"), std::string::npos) << text;
   }
+}
+
+TEST(EvaluationLimits, TanglesAreRefusedBeforeTheyAreTakenApart) {
+  const auto tangle = [](int corners) {
+    std::string text = "polygon([";
+    for (int i = 0; i < corners; ++i)
+      text += fmt::format("{}[{}, {}]", i > 0 ? ", " : "", i * 7919 % 2003, i * 104'729 % 1009);
+    return text + "]);";
+  };
+  EXPECT_EQ(evaluation_error("cube(); linear_extrude(1) " + tangle(2000), {}),
+            "t.csg:1:27: error: flat shapes up to this one have too many lines across one "
+            "another");
+  evaluated("linear_extrude(1) " + tangle(50));
+}
+
+TEST(EvaluationLimits, TanglesAreCountedTogether) {
+  std::minstd_rand random;
+  Contour tangle;
+  for (int i = 0; i < 700; ++i) tangle.push_back({double(random()), double(random())});
+  Budget budget(1000);
+  EXPECT_TRUE(budget.sweep(std::span(&tangle, 1)));
+  EXPECT_FALSE(budget.is_spent());
+  EXPECT_FALSE(budget.sweep(std::span(&tangle, 1)));
+  EXPECT_TRUE(budget.is_spent());
 }
 
 TEST(EvaluationLimits, DepthTakesNoStack) {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "base/degrees.h"
 #include "evaluate/extrusions.h"
+#include "flat/grid.h"
 
 namespace whittle {
 namespace {
@@ -36,11 +38,32 @@ Ring ring_of(const Side& inner, const Side& outer, double z0, double z1) {
   return ring;
 }
 
-std::vector<Side> sides_of(const Polygons& profile) {
+/// Heights that differ by no more than this are one, as a share of the largest coordinate: a few
+/// steps of the grid that corners are rounded to. A side between two of them would be a cone that
+/// is all but a plane, around a film.
+constexpr double kLevel = 0x1p-31;
+
+/// The heights of all corners in order, each the first of those that are one.
+std::vector<double> levels_of(const Polygons& profile) {
+  std::vector<double> heights;
+  for (const Contour& contour : profile.contours)
+    for (const Vec2 p : contour) heights.push_back(p.y);
+  std::sort(heights.begin(), heights.end());
+  const double apart = kLevel * reach(profile.contours);
+  std::vector<double> levels;
+  for (const double y : heights)
+    if (levels.empty() || y - levels.back() > apart) levels.push_back(y);
+  return levels;
+}
+
+std::vector<Side> sides_of(const Polygons& profile, const std::vector<double>& levels) {
+  const auto level = [&](Vec2 p) {
+    return Vec2{p.x, *std::prev(std::upper_bound(levels.begin(), levels.end(), p.y))};
+  };
   std::vector<Side> sides;
   for (const Contour& contour : profile.contours) {
     for (size_t i = 0; i < contour.size(); ++i) {
-      const Vec2 a = contour[i], b = contour[(i + 1) % contour.size()];
+      const Vec2 a = level(contour[i]), b = level(contour[(i + 1) % contour.size()]);
       if (a.y < b.y) sides.push_back({a, b});
       if (b.y < a.y) sides.push_back({b, a});
     }
@@ -53,11 +76,8 @@ std::vector<Side> sides_of(const Polygons& profile) {
 }  // namespace
 
 std::vector<Ring> rings(const Polygons& profile, Budget& budget) {
-  const std::vector<Side> sides = sides_of(profile);
-  std::vector<double> heights;
-  for (const Side& side : sides) heights.insert(heights.end(), {side.lower.y, side.upper.y});
-  std::sort(heights.begin(), heights.end());
-  heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+  const std::vector<double> heights = levels_of(profile);
+  const std::vector<Side> sides = sides_of(profile, heights);
 
   std::vector<Ring> rings;
   std::vector<size_t> active;

@@ -52,6 +52,19 @@ TEST(RotateExtrude, SlantedSidesAreCones) {
       "cylinder(h = 9, r = 10); cylinder(h = 20, r = 5); } }");
 }
 
+TEST(RotateExtrude, CornersAtOneHeightButForRoundingMakeNoFilm) {
+  // The second step of the grid above 3, and 3.
+  for (const double off : {4e-10, -4e-10}) {
+    Budget budget(1000);
+    const Polygons profile{{{{1, 0}, {4, 0}, {4, 3}, {2, 3 + off}, {2, 5}, {1, 5 + off}}}};
+    const std::vector<Ring> found = rings(profile, budget);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_EQ(found[0].z + found[0].outer.h, found[1].z);
+    EXPECT_NEAR(found[1].z, 3, 1e-9);
+    EXPECT_NEAR(found[1].outer.h, 2, 1e-9);
+  }
+}
+
 TEST(RotateExtrude, PartsOfATurn) {
   const std::string profile = "translate([2, 0]) square(3);";
   const std::string whole = "rotate_extrude() " + profile;

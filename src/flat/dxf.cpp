@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "flat/outlines.h"
+#include "flat/sweep_work.h"
 #include "shape/fragments.h"
 
 namespace whittle {
@@ -282,7 +283,9 @@ std::vector<Contour> joined(const std::vector<Line>& lines) {
 Result<Polygons> read_dxf(std::string_view content, const Import& how, const Remark& remark) {
   const Result<std::vector<Line>> lines = DxfReader(how, remark).read(content);
   if (!lines) return lines.error();
-  return even_odd(joined(*lines));
+  const std::vector<Contour> contours = joined(*lines);
+  if (estimate_sweep_work(contours) > kMostSweepWork) return Error{ErrorKind::kInput, kTooTangled};
+  return even_odd(contours);
 }
 
 }  // namespace whittle

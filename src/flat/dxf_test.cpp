@@ -5,6 +5,7 @@
 
 #include "flat/outlines.h"
 #include "flat/polygons_for_test.h"
+#include "flat/sweep_work.h"
 
 namespace whittle {
 namespace {
@@ -85,6 +86,15 @@ TEST(Dxf, BlocksAreInserted) {
   EXPECT_NEAR(area(found), 12, 1e-9);
   EXPECT_NEAR(bounds(found).lo.x, 8, 1e-9);
   EXPECT_NEAR(bounds(found).hi.y, 6, 1e-9);
+}
+
+TEST(Dxf, TanglesAreRefused) {
+  std::string tangle;
+  const auto at = [](int i) { return Vec2{double(i * 7919 % 2003), double(i * 104'729 % 1009)}; };
+  for (int i = 0; i < 2000; ++i) tangle += line(at(i).x, at(i).y, at(i + 1).x, at(i + 1).y);
+  const Result<Polygons> polygons = read_dxf(entities(tangle), {}, [](const auto&, const auto&) {});
+  ASSERT_FALSE(polygons);
+  EXPECT_EQ(polygons.error().message, kTooTangled);
 }
 
 TEST(Dxf, WhatIsNoDrawingIsRefusedOrEmpty) {

@@ -311,7 +311,7 @@ class SvgReader {
     all.reserve(shapes_.size());
     Shape outlines;
     uint64_t work = 0;
-    const Error too_much{ErrorKind::kInput, "it has too many lines across one another"};
+    const Error too_much{ErrorKind::kInput, kTooTangled};
     for (Shape& shape : shapes_) {
       for (Contour& contour : shape)
         for (Vec2& p : contour)

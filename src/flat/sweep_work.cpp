@@ -7,7 +7,8 @@
 namespace whittle {
 namespace {
 
-constexpr uint64_t kSamples = 2'000'000;
+/// Pairs that are looked at, for each edge and in all.
+constexpr uint64_t kSamplesOfEdge = 16, kMostSamples = 2'000'000;
 
 /// Steps for each crossing.
 constexpr uint64_t kCrossing = 2'500;
@@ -53,19 +54,20 @@ uint64_t estimate_sweep_work(std::span<const Contour> contours) {
       edges.push_back({contour[i], contour[(i + 1) % contour.size()]});
   if (edges.empty()) return 0;
   const uint64_t count = edges.size(), pairs = count * (count - 1) / 2;
+  const uint64_t samples = std::min(kSamplesOfEdge * count, kMostSamples);
   Found found;
-  if (pairs <= kSamples) {
+  if (pairs <= samples) {
     for (size_t i = 0; i < count; ++i)
       for (size_t k = 0; k < i; ++k) found.look_at(edges[i], edges[k]);
     return found.level + kCrossing * found.crossings;
   }
   std::minstd_rand random;  // of the same seed always
-  for (uint64_t i = 0; i < kSamples; ++i) {
+  for (uint64_t i = 0; i < samples; ++i) {
     const uint64_t first = random() % count, second = random() % count;
     if (first != second) found.look_at(edges[first], edges[second]);
   }
   if (found.crossings < kFewestHits) found.crossings = 0;
-  const double whole = double(pairs) / double(kSamples);
+  const double whole = double(pairs) / double(samples);
   return uint64_t(whole * double(found.level + kCrossing * found.crossings));
 }
 

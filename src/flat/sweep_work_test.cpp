@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace whittle {
 namespace {
@@ -23,18 +24,27 @@ TEST(SweepWork, OfFewEdgesIsExact) {
   EXPECT_EQ(estimate_sweep_work({}), 0u);
   // A level line meets both sides of a bar, or three or four sides of both.
   EXPECT_EQ(estimate_sweep_work(grille(1)), 6u + 4 * 2500);
-  const double uprights = 200, rungs = 200;
-  EXPECT_NEAR(double(estimate_sweep_work(grille(100))),
-              2500 * uprights * rungs + uprights * uprights / 2 + uprights * rungs, 1000);
 }
 
 TEST(SweepWork, OfManyEdgesIsEstimated) {
-  EXPECT_NEAR(double(estimate_sweep_work(grille(400))), 2500.0 * 800 * 800, 2e8);
+  for (const int bars : {50, 100, 400}) {
+    const double crossings = 4.0 * bars * bars;
+    EXPECT_NEAR(double(estimate_sweep_work(grille(bars))), 2500 * crossings, 200 * crossings);
+  }
   // A comb: nothing crosses, but a level line meets all.
   Contour comb;
   for (int i = 0; i < 50'000; ++i) comb.push_back({double(i), i % 2 == 0 ? 0.0 : 1.0});
   comb.insert(comb.end(), {{49'999, -1}, {0, -1}});
   EXPECT_NEAR(double(estimate_sweep_work(std::span(&comb, 1))), 50'000.0 * 50'000 / 2, 1e6);
+}
+
+TEST(SweepWork, OfRandomCornersIsTooMuch) {
+  std::minstd_rand random;
+  Contour tangle;
+  for (int i = 0; i < 1000; ++i) tangle.push_back({double(random()), double(random())});
+  EXPECT_GT(estimate_sweep_work(std::span(&tangle, 1)), kMostSweepWork);
+  tangle.resize(100);
+  EXPECT_LT(estimate_sweep_work(std::span(&tangle, 1)), kMostSweepWork / 20);
 }
 
 TEST(SweepWork, OfALongOutlineIsSmall) {

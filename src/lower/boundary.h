@@ -10,6 +10,7 @@
 
 #include "base/affine.h"
 #include "base/box.h"
+#include "lower/clip_polygon.h"
 #include "shape/triangle_mesh.h"
 
 namespace whittle {
@@ -28,19 +29,15 @@ class Boundary {
   Vec3 point(uint32_t corner) const { return points_[corner]; }
   std::span<const Triangle> triangles() const { return triangles_; }
 
-  /// Corners of triangles are no farther than this from the planes of their faces.
+  /// In the region that is looked at, triangles are no farther than this from the planes of their
+  /// faces.
   double slack() const { return slack_; }
   /// What no distance can be told from.
   double rounding() const { return rounding_; }
   /// Measures the slack anew: `distance(face, point)` from the plane of a face; no less than
-  /// `rounding`.
+  /// `rounding`. Two planes that are one in the region may part far beyond it.
   template <class Distance>
-  void measure_slack(double rounding, const Distance& distance) {
-    slack_ = rounding_ = rounding;
-    for (const Triangle& triangle : triangles_)
-      for (const uint32_t corner : triangle.corners)
-        slack_ = std::max(slack_, 2 * distance(triangle.face, points_[corner]));
-  }
+  void measure_slack(double rounding, const Box& region, const Distance& distance);
 
   /// Calls visit(index into triangles()) for the triangles that reach a box, until it returns
   /// false. The test is exact but for rounding: the box should be a little larger than what
@@ -85,6 +82,30 @@ class Boundary {
   std::vector<Node> nodes_;          ///< the root first
   double slack_ = 0, rounding_ = 0;
 };
+
+template <class Distance>
+void Boundary::measure_slack(double rounding, const Box& region, const Distance& distance) {
+  slack_ = rounding_ = rounding;
+  std::vector<Vec3> cut;
+  for (const Triangle& triangle : triangles_) {
+    double off = 0;
+    bool is_within = true;
+    for (const uint32_t corner : triangle.corners) {
+      off = std::max(off, distance(triangle.face, points_[corner]));
+      is_within = is_within && region.contains(points_[corner]);
+    }
+    if (!(2 * off > slack_)) continue;
+    if (!is_within) {
+      off = 0;
+      cut.clear();
+      for (const uint32_t corner : triangle.corners)
+        cut.push_back(points_[corner] - region.center());
+      clip_to_box(cut, region.size() / 2);
+      for (const Vec3& p : cut) off = std::max(off, distance(triangle.face, p + region.center()));
+    }
+    slack_ = std::max(slack_, 2 * off);
+  }
+}
 
 template <class IsBeside, class Visit>
 void Boundary::visit_leaves(const IsBeside& is_beside, const Visit& visit) const {

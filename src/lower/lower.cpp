@@ -85,10 +85,10 @@ void take_half_spaces(FaceMerger::Merged merged, Scene& scene) {
   }
 }
 
-/// Once faces have their half-spaces: how far the corners of boundaries are from them.
+/// Once faces have their half-spaces: how far the triangles of boundaries are from them.
 void measure_slacks(Scene& scene, double least_tolerance) {
   for (Boundary& boundary : scene.boundaries)
-    boundary.measure_slack(least_tolerance, [&](uint32_t face, Vec3 p) {
+    boundary.measure_slack(least_tolerance, scene.region, [&](uint32_t face, Vec3 p) {
       const HalfSpace& h = scene.half_spaces[scene.faces[face].literal >> 1];
       return std::fabs(Kernels<double>::quadric_value(h.f, p - h.center));
     });

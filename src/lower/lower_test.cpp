@@ -22,6 +22,16 @@ bool inside(const Scene& scene, Vec3 world) {
   return contains(scene, scene.formula, world - scene.origin);
 }
 
+TEST(Lower, SlackOfABoundaryIsThatOfWhatIsLookedAt) {
+  // Of the million that the body is long four are looked at, and there its right side is the box's.
+  const Scene scene = lowered(
+      "intersection() { cube(4); linear_extrude(4) "
+      "polygon([[4, 2], [2.5, 5], [2.5, 0], [7.5, 5], [2, 1e6]]); }");
+  ASSERT_EQ(scene.boundaries.size(), 1u);
+  EXPECT_EQ(scene.half_spaces.size(), 10u);
+  EXPECT_LT(scene.boundaries[0].slack(), 2e-5);
+}
+
 TEST(Lower, FlushFacesShareAHalfSpace) {
   // The pocket's top lies in the cube's top.
   const Scene scene = lowered("difference(){cube(10); translate([2,2,5]) cube([6,6,5]);}");

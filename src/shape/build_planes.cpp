@@ -181,7 +181,8 @@ struct Surface {
   std::vector<Face> faces;
   std::vector<CornerTree::Corner> corners;  ///< points that faces use
   Edges edges;
-  double size = 0;   ///< the diagonal of the box
+  double size = 0;  ///< the diagonal of the box
+  double thickness = 0;
   double stray = 0;  ///< how far a corner may be from where it was meant to be
 
   /// Else it is too narrow to have one; its neighbours bound the solid there.
@@ -212,13 +213,14 @@ double volume(const Surface& surface, Vec3 center) {
   return sum;
 }
 
-bool is_thin(const Surface& surface) {
+/// How far it reaches across its largest face.
+double thickness(const Surface& surface) {
   const Face& largest = *std::ranges::max_element(surface.faces, {}, &Face::area);
   const auto across = [&](const CornerTree::Corner& corner) {
     return dot(corner.place - largest.middle, largest.normal);
   };
   const auto [below, above] = std::ranges::minmax(surface.corners, {}, across);
-  return !(across(above) - across(below) > kFlatSolid * surface.size);
+  return across(above) - across(below);
 }
 
 CornerTree make_tree(Surface& surface) {
@@ -346,10 +348,12 @@ double depth(const Surface& surface, const Face& face, const Plane& plane) {
 /// Marks the face and all that hang together with it in its plane.
 void mark_plane(const Surface& surface, const Plane& plane, uint32_t seed,
                 std::vector<bool>& has_plane) {
+  // A needle's sides are near one another's planes all along.
+  const double allowed = std::min(kSamePlane * surface.size, kSameOfThin * surface.thickness);
   const auto is_in_plane = [&](const Face& face) {
     if (surface.has_direction(face) && !(dot(plane.n, face.normal) > 0)) return false;
     return std::ranges::all_of(face.loop, [&](uint32_t i) {
-      return std::fabs(dot(plane.n, surface.points[i]) - plane.d) <= kSamePlane * surface.size;
+      return std::fabs(dot(plane.n, surface.points[i]) - plane.d) <= allowed;
     });
   };
   has_plane[seed] = true;
@@ -402,7 +406,8 @@ Verdict build_planes(Polyhedron& polyhedron) {
   const double size = surface.size = box.diagonal();
   if (!all_finite || faces.empty() || !(size > 0) || !std::isfinite(size * size * size)) return {};
   for (Face& face : faces) measure(face, points);
-  if (is_thin(surface)) return {};
+  surface.thickness = thickness(surface);
+  if (!(surface.thickness > kFlatSolid * size)) return {};
   surface.stray = stray(box);
   const bool inside_out = volume(surface, box.center()) < 0;
   if (inside_out)

@@ -22,8 +22,9 @@ struct Verdict {
 /// diagonal. Faces may be as far from flat, and the solid from convex, as corners that are so far
 /// off can make them. A face that is less flat (by kFlatFace of that) is replaced in `faces` by
 /// triangles, so that the solid becomes convex, with a remark. Faces that lie in one plane, to
-/// kSamePlane of the diagonal, give one plane. A solid without faces, without volume (thinner than
-/// kFlatSolid), or with a corner that is not finite, has no planes and is no mistake.
+/// kSamePlane of the diagonal and kSameOfThin of the thickness, give one plane. A solid without
+/// faces, without volume (thinner than kFlatSolid), or with a corner that is not finite, has no
+/// planes and is no mistake.
 ///
 /// Cost: about n log n in the number of corners, where most corners are corners of the solid.
 Verdict build_planes(Polyhedron& polyhedron);
@@ -31,6 +32,7 @@ Verdict build_planes(Polyhedron& polyhedron);
 inline constexpr double kLeastStray = 5e-6;
 inline constexpr double kFlatFace = 4;
 inline constexpr double kSamePlane = 2e-6;
+inline constexpr double kSameOfThin = 1e-3;
 inline constexpr double kFlatSolid = 1e-6;
 
 }  // namespace whittle

@@ -473,6 +473,15 @@ Polyhedron box_with_sliver(double height_of_point) {
   return p;
 }
 
+TEST(BuildPlanes, ANeedleKeepsItsSides) {
+  // They are nearer to one another than the sixth digit of its length.
+  Polyhedron needle{.points = {{1, 4, 1e6}, {6, 0, 0}, {0, -2, 0}, {0, 0, 7}},
+                    .faces = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}},
+                    .planes = {}};
+  EXPECT_EQ(refusal(needle), "");
+  EXPECT_EQ(needle.planes.size(), 4u);
+}
+
 TEST(BuildPlanes, SliverInALargeFaceGoesWithIt) {
   Polyhedron p = box_with_sliver(10.0001);
   EXPECT_EQ(refusal(p), "");

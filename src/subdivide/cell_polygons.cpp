@@ -1,14 +1,37 @@
 #include "subdivide/cell_polygons.h"
 
 #include <algorithm>
+#include <array>
 
 namespace whittle {
 
 void CellPolygons::measure(const Scene& scene, const Boundary& boundary,
-                           const Boundary::Triangle& triangle) {
+                           const Boundary::Triangle& triangle, const CellBox& cell) {
   const HalfSpace& h = scene.half_spaces[scene.faces[triangle.face].literal >> 1];
+  const auto distance = [&](Vec3 p) { return std::fabs(2 * dot(h.f.b, p - h.center)); };
+  double off = 0;
+  bool is_within = true;
+  for (const uint32_t corner : triangle.corners) {
+    off = std::max(off, distance(boundary.point(corner)));
+    is_within = is_within && scene.region.contains(boundary.point(corner));
+  }
+  if (off <= slack) return;
+  if (!is_within) {
+    // The plane may be another one, that parts from the triangle where nobody looks.
+    take(boundary, triangle, cell);
+    off = 0;
+    for (const Vec3& q : cut_) off = std::max(off, distance(cell.center + q));
+  }
+  slack = std::max(slack, off);
+}
+
+/// Puts what of a triangle is in the cell into `cut_`.
+void CellPolygons::take(const Boundary& boundary, const Boundary::Triangle& triangle,
+                        const CellBox& cell) {
+  cut_.clear();
   for (const uint32_t corner : triangle.corners)
-    slack = std::max(slack, std::fabs(2 * dot(h.f.b, boundary.point(corner) - h.center)));
+    cut_.push_back(boundary.point(corner) - cell.center);
+  clip_to_box(cut_, cell.half);
 }
 
 void CellPolygons::add(const Scene& scene, const Boundary& boundary,
@@ -16,15 +39,15 @@ void CellPolygons::add(const Scene& scene, const Boundary& boundary,
   // What does not cross the cell parts nothing in it.
   const Literal literal = scene.faces[triangle.face].literal;
   if (classify(scene.half_spaces[literal >> 1], cell) != Side::kCrosses) return;
-  cut_.clear();
-  for (const uint32_t corner : triangle.corners)
-    cut_.push_back(boundary.point(corner) - cell.center);
-  const Vec3 normal = cross(cut_[1] - cut_[0], cut_[2] - cut_[0]);
-  for (uint32_t axis = 0; axis < 3 && !cut_.empty(); ++axis) {
-    clip(axis, 1, cell.half[int(axis)]);
-    clip(axis, -1, cell.half[int(axis)]);
-  }
-  if (cut_.size() < 3 || !(width_of(cut_) > 4 * slack)) return;
+  const Vec3 a = boundary.point(triangle.corners[0]);
+  const Vec3 normal =
+      cross(boundary.point(triangle.corners[1]) - a, boundary.point(triangle.corners[2]) - a);
+  // Not by what of it is in the cell: a strip along the cell's side says where a wall there ends.
+  if (!(width_of(std::array{a, boundary.point(triangle.corners[1]),
+                            boundary.point(triangle.corners[2])}) > 4 * slack))
+    return;
+  take(boundary, triangle, cell);
+  if (cut_.size() < 3) return;
   const uint32_t plane = plane_of(scene, triangle.face, cell);
   const int outward = dot(normal, planes[plane].n) < 0 ? -1 : 1;
   polygons.push_back({uint32_t(corners.size()), uint32_t(cut_.size()), plane, outward});
@@ -44,21 +67,6 @@ uint32_t CellPolygons::plane_of(const Scene& scene, uint32_t face, const CellBox
   }
   planes.push_back({n, dot(n, cell.center - h.center) + h.f.c, number, face});
   return uint32_t(planes.size() - 1);
-}
-
-/// Keeps of `cut_` what is at sign * q[axis] <= limit.
-void CellPolygons::clip(uint32_t axis, int sign, double limit) {
-  const size_t n = cut_.size();
-  const auto at = [&](Vec3 q) { return sign * q[int(axis)] - limit; };
-  if (std::ranges::all_of(cut_, [&](Vec3 q) { return at(q) <= 0; })) return;
-  for (size_t i = 0; i < n; ++i) {
-    const Vec3 p = cut_[i], q = cut_[(i + 1) % n];
-    const double at_p = at(p), at_q = at(q);
-    if (at_p <= 0) cut_.push_back(p);
-    if ((at_p < 0 && at_q > 0) || (at_p > 0 && at_q < 0))
-      cut_.push_back(p + (q - p) * (at_p / (at_p - at_q)));
-  }
-  cut_.erase(cut_.begin(), cut_.begin() + std::ptrdiff_t(n));
 }
 
 void CellPolygons::split(const Polygon& polygon, uint32_t plane, Polygon& front, Polygon& back) {

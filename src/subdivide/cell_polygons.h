@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lower/boundary.h"
+#include "lower/clip_polygon.h"
 #include "lower/scene.h"
 #include "subdivide/classify.h"
 
@@ -29,14 +30,16 @@ struct CellPolygons {
     int outward;  ///< 1: the body is behind its plane; -1: in front of it
   };
 
-  /// Corners are no farther from their planes than this: what is thinner tells nothing about sides.
+  /// In the cell triangles are no farther from their planes than this: what is thinner tells
+  /// nothing about sides.
   double slack = 0;
   std::vector<Plane> planes;
   std::vector<Vec3> corners;
   std::vector<Polygon> polygons;
 
-  /// Takes those triangles of the boundary for which `reaching` calls its argument, a function of
-  /// an index into triangles().
+  /// Takes what is in the cell, or so near to it that planes of faces which are moved a little
+  /// could be: of a wall in the cell's side, say, also where it ends. Of those triangles of the
+  /// boundary for which `reaching` calls its argument, a function of an index into triangles().
   template <class Reaching>
   void collect(const Scene& scene, const Boundary& boundary, const CellBox& cell,
                const Reaching& reaching);
@@ -53,11 +56,12 @@ struct CellPolygons {
   }
 
  private:
-  void measure(const Scene& scene, const Boundary& boundary, const Boundary::Triangle& triangle);
+  void measure(const Scene& scene, const Boundary& boundary, const Boundary::Triangle& triangle,
+               const CellBox& cell);
+  void take(const Boundary& boundary, const Boundary::Triangle& triangle, const CellBox& cell);
   void add(const Scene& scene, const Boundary& boundary, const Boundary::Triangle& triangle,
            const CellBox& cell);
   uint32_t plane_of(const Scene& scene, uint32_t face, const CellBox& cell);
-  void clip(uint32_t axis, int sign, double limit);
   static double width_of(std::span<const Vec3> polygon);
 
   std::vector<uint32_t> reaching_;
@@ -77,8 +81,10 @@ void CellPolygons::collect(const Scene& scene, const Boundary& boundary, const C
     return true;
   });
   // Of the whole boundary the slack may be much more, and here it would hide what is small.
-  for (const uint32_t i : reaching_) measure(scene, boundary, boundary.triangles()[i]);
-  for (const uint32_t i : reaching_) add(scene, boundary, boundary.triangles()[i], cell);
+  for (const uint32_t i : reaching_) measure(scene, boundary, boundary.triangles()[i], cell);
+  CellBox larger = cell;
+  larger.half += Vec3{1, 1, 1} * (2 * slack);
+  for (const uint32_t i : reaching_) add(scene, boundary, boundary.triangles()[i], larger);
 }
 
 }  // namespace whittle

@@ -51,8 +51,9 @@ bool LocalBsp::is_inside(const Unit& unit, const CellBox& cell) const {
 std::span<const Token> LocalBsp::formula(const Unit& unit, const CellBox& cell, bool negated,
                                          const Known& known) {
   const Boundary& boundary = scene_.boundaries[unit.boundary];
-  polygons_.collect(scene_, boundary, cell,
-                    [&](const auto& take) { visit_in(boundary, known, cell, 0, take); });
+  polygons_.collect(scene_, boundary, cell, [&](const auto& take) {
+    visit_in(boundary, known, cell, boundary.slack(), take);
+  });
   if (polygons_.polygons.empty()) {
     const bool value = is_inside(unit, cell) != negated;
     constant_.assign(1, Token::make(value ? TokenKind::kAnd : TokenKind::kOr, 1));

@@ -102,6 +102,21 @@ Solid pyramid(const std::vector<Vec3>& base, Vec3 apex) {
   return solid;
 }
 
+void append(Solid& to, const Solid& part, Vec3 move, bool inside_out) {
+  const int first = int(to.points.size());
+  for (const Vec3 p : part.points) to.points.push_back(p + move);
+  for (std::vector<int> face : part.faces) {
+    for (int& corner : face) corner += first;
+    if (inside_out) std::ranges::reverse(face);
+    to.faces.push_back(std::move(face));
+  }
+}
+
+const std::vector<Vec3>& unit_square() {
+  static const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  return corners;
+}
+
 class Decoder {
  public:
   Decoder(std::span<const uint8_t> bytes, double nearly) : bytes_(bytes), nearly_(nearly) {}
@@ -281,6 +296,8 @@ class Decoder {
       case 15:
         return halfspace();
       default: {
+        // Bits that mean nothing to a cube.
+        if ((byte & 15) >= 3 && (byte & 32)) return body();
         const Vec3 size = {1.0 + bytes_.below(6), 1.0 + bytes_.below(6), 1.0 + bytes_.below(6)};
         return fmt::format("cube(size = {}, center = {});", vector(size), center);
       }
@@ -296,8 +313,131 @@ class Decoder {
                        int(byte >> 3) % 9 - 3);
   }
 
+  /// The corners of a polygon, counter-clockwise or not, all x and y from -3 to 3.
+  std::vector<Vec3> outline() {
+    static const std::vector<std::vector<Vec3>> outlines = {
+        {{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}},
+        {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0}, {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}},
+        // Touches itself in a corner; in a corner of another side.
+        {{0, 0, 0}, {1, 1, 0}, {2, 0, 0}, {2, 2, 0}, {1, 1, 0}, {0, 2, 0}},
+        {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 0, 0}, {0, 2, 0}},
+    };
+    const size_t which = size_t(bytes_.below(12));
+    if (which < outlines.size()) return outlines[which];
+    const int n = int(which) - 1;
+    std::vector<Vec3> corners;
+    for (int k = 0; k < n; ++k) {
+      const double r = 1 + bytes_.below(3), degrees = 360.0 * k / n;
+      corners.push_back({r * cos_degrees(degrees), r * sin_degrees(degrees), 0});
+    }
+    return corners;
+  }
+
+  /// Steps and ramps over a square of n x n fields.
+  Solid terrain(int n) {
+    Solid solid;
+    const auto at = [n](int x, int y, int level) { return (level * (n + 1) + y) * (n + 1) + x; };
+    for (int level = 0; level < 2; ++level)
+      for (int y = 0; y <= n; ++y)
+        for (int x = 0; x <= n; ++x)
+          solid.points.push_back({double(x), double(y), level == 0 ? 0.0 : 1.0 + bytes_.below(3)});
+    const auto facet = [&](int a, int b, int c) { solid.faces.push_back({a, b, c}); };
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x) {
+        facet(at(x, y, 1), at(x, y + 1, 1), at(x + 1, y, 1));
+        facet(at(x + 1, y, 1), at(x, y + 1, 1), at(x + 1, y + 1, 1));
+        facet(at(x, y, 0), at(x + 1, y, 0), at(x, y + 1, 0));
+        facet(at(x + 1, y, 0), at(x + 1, y + 1, 0), at(x, y + 1, 0));
+      }
+    const auto wall = [&](int x, int y, int u, int v) {
+      solid.faces.push_back({at(x, y, 0), at(x, y, 1), at(u, v, 1), at(u, v, 0)});
+    };
+    for (int k = 0; k < n; ++k) {
+      wall(k, 0, k + 1, 0);
+      wall(k + 1, n, k, n);
+      wall(0, k + 1, 0, k);
+      wall(n, k, n, k + 1);
+    }
+    return solid;
+  }
+
+  /// Two shells: beside one another, touching, overlapping, or one a hollow in the other.
+  Solid shells(double h) {
+    const unsigned byte = bytes_.next();
+    Solid solid = prism({{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}}, {0, 0, h});
+    const Vec3 move = {double(byte & 3), double(byte >> 2 & 3), (byte >> 4 & 3) * 0.5};
+    const Solid part =
+        byte & 64 ? pyramid(unit_square(), {0.5, 0.5, 2}) : prism(unit_square(), {0, 0, 1});
+    append(solid, part, move, byte & 128);
+    return solid;
+  }
+
+  /// A body that is not convex, or so it is written: a mesh, an extrusion or a revolution.
+  std::string body() {
+    const unsigned byte = bytes_.next();
+    const double h = 1 + int(byte >> 3 & 3);
+    const unsigned more = byte >> 5;
+    Solid solid;
+    switch (byte & 7) {
+      case 0:
+      case 1:
+        solid = prism(outline(), {more & 1 ? 1.0 : 0.0, 0, h});
+        break;
+      case 2:
+        solid = pyramid(outline(), {more & 1 ? 1.0 : 0.0, more & 2 ? 3.0 : 0.0, h});
+        break;
+      case 3:
+        solid = terrain(1 + int(more & 3));
+        break;
+      case 4:
+        solid = shells(h);
+        break;
+      case 5:
+        return extrusion(h, more);
+      default:
+        return revolution(more);
+    }
+    // Each face may be turned as it likes, or all of them.
+    const unsigned turned = bytes_.next();
+    if ((turned & 3) == 3) {
+      std::ranges::reverse(solid.faces[(turned >> 2) % solid.faces.size()]);
+    } else if (turned & 1) {
+      for (auto& face : solid.faces) std::ranges::reverse(face);
+    }
+    return polyhedron(solid);
+  }
+
+  std::string polygon(const std::vector<Vec3>& corners, double right) const {
+    std::string points;
+    for (const Vec3 p : corners)
+      points +=
+          fmt::format("{}[{}, {}]", points.empty() ? "" : ", ", number(p.x + right), number(p.y));
+    return fmt::format("polygon(points = [{}], paths = undef, convexity = 1);", points);
+  }
+
+  std::string extrusion(double h, unsigned more) {
+    static constexpr std::array kKinds = {"scale = [1, 1]",     "scale = [0, 0]",
+                                          "scale = [0.5, 2]",   "twist = 90, slices = 2",
+                                          "scale = [0.5, 0.5]", "twist = -40, slices = 3"};
+    const size_t kind = size_t(bytes_.below(12));
+    const std::string head =
+        fmt::format("linear_extrude(height = {}, center = {}, {}) ", number(h),
+                    more & 1 ? "true" : "false", kKinds[kind < kKinds.size() ? kind : 0]);
+    if (kind % 2 == 0 || !(more & 2)) return head + polygon(outline(), 0);
+    return fmt::format("{}difference() {{ circle($fn = {}, $fa = 12, $fs = 2, r = 2); {} }}", head,
+                       more & 4 ? 5 : 0, polygon(outline(), 1));
+  }
+
+  std::string revolution(unsigned more) {
+    static constexpr std::array kTurns = {"", "angle = 90, ", "angle = -135, ", "angle = 270, "};
+    const unsigned byte = bytes_.next();
+    return fmt::format("rotate_extrude({}$fn = {}, $fa = 12, $fs = 2) {}", kTurns[byte & 3],
+                       more & 1 ? 0 : 3 + int(byte >> 2 & 7), polygon(outline(), 3 + (more >> 1)));
+  }
+
   std::string polyhedron() {
     const unsigned byte = bytes_.next();
+    if (byte & 128) return body();
     const double r = 1 + int(byte >> 4 & 1), h = 1 + int(byte >> 5 & 3);
     const std::vector<Vec3> square = {{0, 0, 0}, {r, 0, 0}, {r, r, 0}, {0, r, 0}};
     const std::vector<Vec3> corner = {{0, 0, 0}, {r, 0, 0}, {0, r, 0}};
@@ -333,6 +473,10 @@ class Decoder {
     }
     if (byte & 8)
       for (auto& face : solid.faces) std::ranges::reverse(face);
+    return polyhedron(solid);
+  }
+
+  std::string polyhedron(const Solid& solid) const {
     std::string points, faces;
     for (const Vec3 p : solid.points) points += (points.empty() ? "" : ", ") + vector(p);
     for (const auto& face : solid.faces)

@@ -78,7 +78,11 @@ Span cone_span(const Surface& s, bool other_nappe, const Line& given) {
   const double a = across - growth * growth;
   const double b = o.x * d.x + o.y * d.y - radius * growth;
   const double c = o.x * o.x + o.y * o.y - radius * radius;
-  const double discriminant = b * b - a * c;
+  // b^2 - a c, without the radius to the fourth power: of a cone that is flat, and so much wider at
+  // `o` than where it is met, nothing would be left of the difference.
+  const double u = radius * d.x - growth * o.x, v = radius * d.y - growth * o.y;
+  const double w = o.x * d.y - o.y * d.x;
+  const double discriminant = u * u + v * v - w * w;
   double t0 = -kInfinity, t1 = kInfinity;
   if (a > 0) {
     // The ray is flatter than the cone: it crosses one nappe, or none.

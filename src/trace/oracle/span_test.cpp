@@ -193,6 +193,19 @@ TEST(RaySpan, OfAWallBeyondTheOneItIs) {
   EXPECT_DOUBLE_EQ(span.t1, 7);
 }
 
+// A revolution has such films where two corners of its profile are at one height but for rounding.
+TEST(RaySpan, BesideAConeThatIsAllButAPlane) {
+  const Cylinder film{.h = 4.6e-10, .r1 = 1.73, .r2 = 1.15};
+  const Vec3 d = normalize(Vec3{-0.74, 0.63, -0.23});
+  for (const double x : {-330.0, -1.8, 0.0, 1.1, 1.8, 330.0}) {
+    SCOPED_TRACE(x);
+    const Vec3 met = {x, -0.75 * x, 0};
+    const bool hits = length(met) < 1.73;
+    EXPECT_EQ(span_of(film, met - d * 750.0, d).is_empty(), !hits);
+    EXPECT_EQ(span_of(film, met + d * 750.0, -d).is_empty(), !hits);
+  }
+}
+
 TEST(RaySpan, HalfspaceIsHalfALine) {
   const Span into = span_of(Halfspace{.n = {0, 0, 2}, .d = 2}, {0, 0, 5}, {0, 0, -1});
   EXPECT_EQ(into.t0, 4);
