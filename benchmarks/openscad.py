@@ -53,7 +53,8 @@ def run_measured(command, limit_s, log, environment=None):
         process.returncode = os.waitstatus_to_exitcode(status)
     finally:
         process.kill()
-    return {"exit_code": process.returncode, "ended": process.returncode != -signal.SIGXCPU,
+    stopped = process.returncode in (-signal.SIGXCPU, -signal.SIGKILL)
+    return {"exit_code": process.returncode, "ended": not stopped,
             "wall_s": time.monotonic() - start, "cpu_s": usage.ru_utime + usage.ru_stime,
             "memory_mb": usage.ru_maxrss / 1024}
 
@@ -88,9 +89,11 @@ class OpenScad:
         if not known:
             known = self._make(path, picture, log)
             known.update(version=self.version, limit_s=self._limit_s)
-            with open(record + ".part", "w") as file:
-                json.dump(known, file, indent=2)
-            os.replace(record + ".part", record)
+            # Killed by somebody else, or for its memory: that says nothing about the next time.
+            if known["exit_code"] != -signal.SIGKILL:
+                with open(record + ".part", "w") as file:
+                    json.dump(known, file, indent=2)
+                os.replace(record + ".part", record)
         with open(log, errors="replace") as file:
             said = file.read()
         return {**known, "picture": picture if os.path.exists(picture) else None, "said": said}
