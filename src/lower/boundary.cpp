@@ -94,6 +94,13 @@ void Boundary::build() {
   sorted.reserve(triangles_.size());
   for (const Item& item : items) sorted.push_back(triangles_[item.triangle]);
   triangles_ = std::move(sorted);
+  columns_.reserve(triangles_.size());
+  for (const Triangle& triangle : triangles_) {
+    Box box;
+    for (const uint32_t corner : triangle.corners) box.include(points_[corner]);
+    columns_.push_back({rounded_down(box.lo.x), rounded_up(box.hi.x), rounded_down(box.lo.y),
+                        rounded_up(box.hi.y), rounded_up(box.hi.z)});
+  }
   // Children stand behind their parents.
   for (size_t n = nodes_.size(); n-- > 0;) {
     Node& node = nodes_[n];
@@ -151,14 +158,6 @@ bool Boundary::reaches(const Triangle& triangle, Vec3 center, Vec3 half) const {
 /// By how much the winding number grows on the way down through a triangle above p; 0 if the way up
 /// from p does not meet it.
 int Boundary::crosses_above(const Triangle& triangle, Vec3 p) const {
-  const Vec3 a = points_[triangle.corners[0]], b = points_[triangle.corners[1]],
-             c = points_[triangle.corners[2]];
-  const auto are_beside = [](double u, double v, double w, double at) {
-    return (u < at && v < at && w < at) || (u > at && v > at && w > at);
-  };
-  if (are_beside(a.x, b.x, c.x, p.x) || are_beside(a.y, b.y, c.y, p.y) ||
-      (a.z < p.z && b.z < p.z && c.z < p.z))
-    return 0;
   int side = 0;
   for (size_t e = 0; e < 3; ++e) {
     const uint32_t i = triangle.corners[e], j = triangle.corners[(e + 1) % 3];
@@ -167,7 +166,10 @@ int Boundary::crosses_above(const Triangle& triangle, Vec3 p) const {
     if (s == 0 || (e > 0 && s != side)) return 0;
     side = s;
   }
+  const Vec3 a = points_[triangle.corners[0]], b = points_[triangle.corners[1]],
+             c = points_[triangle.corners[2]];
   if (std::min(a.z, std::min(b.z, c.z)) <= p.z) {
+    if (std::max(a.z, std::max(b.z, c.z)) < p.z) return 0;
     // Seen from above the triangle runs counter-clockwise if side is 1: its normal points up.
     const Vec3 n = cross(b - a, c - a);
     if (dot(n, p - a) * side >= 0) return 0;
@@ -182,7 +184,10 @@ int Boundary::winding(Vec3 p) const {
            p.y > double(node.hi[1]) || p.z > double(node.hi[2]);
   };
   visit_leaves(is_beside, [&](uint32_t i) {
-    sum += crosses_above(triangles_[i], p);
+    const Column& c = columns_[i];
+    if (!(p.x < double(c.lo_x) || p.x > double(c.hi_x) || p.y < double(c.lo_y) ||
+          p.y > double(c.hi_y) || p.z > double(c.top)))
+      sum += crosses_above(triangles_[i], p);
     return true;
   });
   return sum;

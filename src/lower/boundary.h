@@ -66,6 +66,10 @@ class Boundary {
     uint32_t first;  ///< leaf: the first triangle; else: the first of two children in a row
     uint32_t count;  ///< leaf: triangles; else 0
   };
+  /// Of a triangle, seen from above, and its top; rounded outwards.
+  struct Column {
+    float lo_x, hi_x, lo_y, hi_y, top;
+  };
   static constexpr uint32_t kLeafTriangles = 4;
   static constexpr size_t kMostDepth = 96;
 
@@ -79,6 +83,7 @@ class Boundary {
 
   std::vector<Vec3> points_;
   std::vector<Triangle> triangles_;  ///< in the order of the leaves
+  std::vector<Column> columns_;      ///< by triangle: most are told apart by them alone
   std::vector<Node> nodes_;          ///< the root first
   double slack_ = 0, rounding_ = 0;
 };
