@@ -39,8 +39,8 @@ Ring ring_of(const Side& inner, const Side& outer, double z0, double z1) {
 }
 
 /// Heights that differ by no more than this are one, as a share of the largest coordinate: a few
-/// steps of the grid that corners are rounded to. A side between two of them would be a cone that is
-/// all but a plane, around a film.
+/// steps of the grid that corners are rounded to. A side between two of them would be a cone that
+/// is all but a plane, around a film.
 constexpr double kLevel = 0x1p-31;
 
 /// The heights of all corners in order, each the first of those that are one.
