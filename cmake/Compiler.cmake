@@ -32,7 +32,7 @@ endif()
 
 if(WHITTLE_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang" OR NOT WHITTLE_TESTS)
-    message(FATAL_ERROR "WHITTLE_FUZZ needs clang and WHITTLE_TESTS: cmake --preset fuzz")
+    message(FATAL_ERROR "WHITTLE_FUZZ needs clang and WHITTLE_TESTS: cmake --preset asan")
   endif()
   # What the fuzzer learns coverage from. It need not see comparisons too: that would double the
   # time of a picture, and what the reader compares with is in its dictionary.

@@ -4,7 +4,7 @@
 #   scripts/fuzz.sh [--seconds N | --runs N] [--seed N] [--fast] [reader|flat|picture|mesh]
 #
 # For N seconds (60 unless said), or for N executions. They run side by side unless one is
-# named. --fast leaves the sanitizers out. Inputs that reach new code gather in build/fuzz/new-NAME
+# named. --fast leaves the sanitizers out. Inputs that reach new code gather in build/asan/new-NAME
 # (build/fuzz-fast with --fast), where later runs begin; what breaks a rule goes to found-NAME, and
 # the script fails.
 set -euo pipefail
@@ -18,7 +18,7 @@ usage() {
 
 limit=(-max_total_time=60)
 seed=0 # libFuzzer's word for one of its own choice
-preset=fuzz
+preset=asan
 names=(reader flat picture mesh)
 while (($#)); do
   case $1 in
