@@ -2,13 +2,20 @@
 
 namespace whittle {
 
-void BspFormula::find_forms(const BspTree& tree, const PartWindings& windings) {
+void BspFormula::find_forms(const CellPolygons& in, const BspTree& tree,
+                            const PartWindings& windings) {
   const auto form_of_child = [&](uint32_t child) {
     if ((child & BspTree::kPart) == 0) return forms_[child];
     return windings.of(child & ~BspTree::kPart) != 0 ? Form::kTrue : Form::kFalse;
   };
   const auto form_of = [&](const BspTree::Node& node) {
     const Form front = form_of_child(node.child[0]), back = form_of_child(node.child[1]);
+    const Side cell = in.planes[node.plane].cell;
+    if (cell != Side::kCrosses) {
+      const Form form = cell == Side::kInside ? back : front;
+      if (form == Form::kFalse || form == Form::kTrue) return form;
+      return cell == Side::kInside ? Form::kOnlyBack : Form::kOnlyFront;
+    }
     const bool front_is_known = front == Form::kFalse || front == Form::kTrue;
     const bool back_is_known = back == Form::kFalse || back == Form::kTrue;
     if (front_is_known && back_is_known) {
@@ -27,7 +34,7 @@ void BspFormula::find_forms(const BspTree& tree, const PartWindings& windings) {
 /// From the tree to tokens, from the top, every group in one of the other kind.
 void BspFormula::write(const Scene& scene, const CellPolygons& in, const BspTree& tree,
                        const PartWindings& windings, bool negated) {
-  find_forms(tree, windings);
+  find_forms(in, tree, windings);
   tokens_.clear();
   operands_ = 0;
   enum class What : uint8_t { kNode, kBackHalf, kFrontHalf, kBehind, kInFront, kClose };
@@ -97,6 +104,11 @@ void BspFormula::write(const Scene& scene, const CellPolygons& in, const BspTree
             tokens_.push_back(Token::make(value ? TokenKind::kAnd : TokenKind::kOr, 1));
             break;
           }
+          case Form::kOnlyFront:
+          case Form::kOnlyBack:
+            tasks.push_back({What::kNode, task.around, task.depth,
+                             node.child[forms_[task.at] == Form::kOnlyBack ? 1 : 0]});
+            break;
           case Form::kBehind:
             alone(true);
             break;

@@ -27,9 +27,21 @@ class BspFormula {
 
  private:
   /// A node's value once constants have gone.
-  enum class Form : uint8_t { kFalse, kTrue, kBehind, kInFront, kAnd, kAndNot, kOr, kOrNot, kBoth };
+  enum class Form : uint8_t {
+    kFalse,
+    kTrue,
+    kOnlyFront,  ///< the plane is beside the cell
+    kOnlyBack,
+    kBehind,
+    kInFront,
+    kAnd,
+    kAndNot,
+    kOr,
+    kOrNot,
+    kBoth
+  };
 
-  void find_forms(const BspTree& tree, const PartWindings& windings);
+  void find_forms(const CellPolygons& in, const BspTree& tree, const PartWindings& windings);
 
   std::vector<Form> forms_;  ///< by node
   Formula tokens_;

@@ -35,10 +35,11 @@ void CellPolygons::take(const Boundary& boundary, const Boundary::Triangle& tria
 }
 
 void CellPolygons::add(const Scene& scene, const Boundary& boundary,
-                       const Boundary::Triangle& triangle, const CellBox& cell) {
+                       const Boundary::Triangle& triangle, const CellBox& cell,
+                       const CellBox& larger) {
   // What does not cross the cell parts nothing in it.
   const Literal literal = scene.faces[triangle.face].literal;
-  if (classify(scene.half_spaces[literal >> 1], cell) != Side::kCrosses) return;
+  if (classify(scene.half_spaces[literal >> 1], larger) != Side::kCrosses) return;
   const Vec3 a = boundary.point(triangle.corners[0]);
   const Vec3 normal =
       cross(boundary.point(triangle.corners[1]) - a, boundary.point(triangle.corners[2]) - a);
@@ -46,7 +47,7 @@ void CellPolygons::add(const Scene& scene, const Boundary& boundary,
   if (!(width_of(std::array{a, boundary.point(triangle.corners[1]),
                             boundary.point(triangle.corners[2])}) > 4 * slack))
     return;
-  take(boundary, triangle, cell);
+  take(boundary, triangle, larger);
   if (cut_.size() < 3) return;
   const uint32_t plane = plane_of(scene, triangle.face, cell);
   const int outward = dot(normal, planes[plane].n) < 0 ? -1 : 1;
@@ -65,7 +66,7 @@ uint32_t CellPolygons::plane_of(const Scene& scene, uint32_t face, const CellBox
     const auto is_on = [&](Vec3 q) { return std::fabs(planes[i].at(q)) <= 2 * slack; };
     if (std::fabs(dot(n, planes[i].n)) > 0.9 && std::ranges::all_of(cut_, is_on)) return i;
   }
-  planes.push_back({n, dot(n, cell.center - h.center) + h.f.c, number, face});
+  planes.push_back({n, dot(n, cell.center - h.center) + h.f.c, number, face, classify(h, cell)});
   return uint32_t(planes.size() - 1);
 }
 

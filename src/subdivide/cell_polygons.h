@@ -22,6 +22,7 @@ struct CellPolygons {
     double value;
     uint32_t half_space;  ///< into Scene::half_spaces
     uint32_t face;        ///< into Scene::faces: the first one that lies on it
+    Side cell;            ///< where the cell is, without what is beside it
     double at(Vec3 q) const { return dot(n, q) + value; }
   };
   struct Polygon {
@@ -60,7 +61,7 @@ struct CellPolygons {
                const CellBox& cell);
   void take(const Boundary& boundary, const Boundary::Triangle& triangle, const CellBox& cell);
   void add(const Scene& scene, const Boundary& boundary, const Boundary::Triangle& triangle,
-           const CellBox& cell);
+           const CellBox& cell, const CellBox& larger);
   uint32_t plane_of(const Scene& scene, uint32_t face, const CellBox& cell);
   static double width_of(std::span<const Vec3> polygon);
 
@@ -84,7 +85,7 @@ void CellPolygons::collect(const Scene& scene, const Boundary& boundary, const C
   for (const uint32_t i : reaching_) measure(scene, boundary, boundary.triangles()[i], cell);
   CellBox larger = cell;
   larger.half += Vec3{1, 1, 1} * (2 * slack);
-  for (const uint32_t i : reaching_) add(scene, boundary, boundary.triangles()[i], larger);
+  for (const uint32_t i : reaching_) add(scene, boundary, boundary.triangles()[i], cell, larger);
 }
 
 }  // namespace whittle

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <random>
 
 #include "base/result.h"
@@ -126,6 +128,26 @@ TEST(LocalBsp, NeighboursAcrossACornerOnACutAgree) {
         EXPECT_EQ(inside, boundary.winding(middle) != 0);
       }
     }
+}
+
+// A point from which a part is known must not lie in what is beyond the cell: in the box, here.
+TEST(LocalBsp, AnotherShellBesideTheCellSaysNothing) {
+  TriangleMesh pyramid;
+  pyramid.points = {{1, 0.5, -1}, {2, 0.5, -1}, {2, 1.5, -1}, {1, 1.5, -1}, {1.5, 1, 1}};
+  for (const std::array<uint32_t, 3>& corners : std::initializer_list<std::array<uint32_t, 3>>{
+           {0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}})
+    pyramid.triangles.push_back({corners, 0});
+  pyramid = changed(pyramid, [](double x) { return x; });
+  const Model model = with_meshes(
+      "cube(1);", {together({box_mesh({{-2, -1.5, -1.5}, {1, 1.5, 1.5}}, 1), pyramid})});
+  const Result<Scene> scene = lower(model);
+  ASSERT_TRUE(scene);
+  LocalBsp bsp(*scene);
+  const CellBox cell({{1.00001, 0, -1.5}, {2, 1.5, 0}}, 1e-10);
+  const std::span<const Token> tokens = bsp.formula(scene->units[0], cell, false);
+  const Formula formula(tokens.begin(), tokens.end());
+  EXPECT_FALSE(contains(*scene, formula, {1.1, 0.1, -0.5}));
+  EXPECT_TRUE(contains(*scene, formula, {1.5, 1, -0.5}));
 }
 
 TEST(LocalBsp, AnEdgeIsTwoLiterals) {

@@ -6,6 +6,21 @@
 #include "subdivide/cell_probes.h"
 
 namespace whittle {
+namespace {
+
+/// How far it is from a point in the box from -half to half to its sides; what is beyond them,
+/// planes in the box do not tell. 0 from outside.
+double way_out(Vec3 p, Vec3 direction, Vec3 half) {
+  double far = kInfinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double speed = std::fabs(direction[axis]);
+    const double left = half[axis] - (direction[axis] > 0 ? p[axis] : -p[axis]);
+    if (speed > 0) far = std::min(far, std::max(left, 0.0) / speed);
+  }
+  return far;
+}
+
+}  // namespace
 
 PartWindings::Place PartWindings::find_root(uint32_t part) {
   int more = 0;
@@ -73,8 +88,11 @@ void PartWindings::find(const Boundary& boundary, const CellBox& cell, const Cel
     if (node.room > enough) relate(node, in, tree);
   for (const BspTree::Node& node : tree.nodes()) {
     if (known_ == sets_) break;
-    for (const double side : {0.5, -0.5})
-      probe(node.sample + in.planes[node.plane].n * (side * node.room), enough, around);
+    const Vec3 n = in.planes[node.plane].n;
+    for (const Vec3 way : {n, -n}) {
+      const double far = std::min(node.room, way_out(node.sample, way, cell.half));
+      probe(node.sample + way * (0.5 * far), enough, around);
+    }
   }
   for (size_t i = 0; i < kCellProbes.size() && known_ < sets_; ++i)
     probe(cell_probe(i, cell.half), enough, around);
