@@ -110,8 +110,7 @@ void BspTree::take_sample(std::span<const uint32_t> polygons, const CellPolygons
     if (const uint32_t plane = in.polygons[number].plane; plane != node.plane)
       other_planes_.push_back(plane);
   std::ranges::sort(other_planes_);
-  const auto repeated = std::ranges::unique(other_planes_);
-  other_planes_.erase(repeated.begin(), repeated.end());
+  other_planes_.erase(std::unique(other_planes_.begin(), other_planes_.end()), other_planes_.end());
 
   const double good_enough = 16 * in.slack;
   node.room = -1;
