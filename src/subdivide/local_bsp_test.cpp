@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <initializer_list>
@@ -104,6 +105,45 @@ TEST_P(LocalBspOf, RandomCellsSaysWhatTheWindingNumberSays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LocalBspOf, testing::Range<size_t>(0, 10));
+
+TEST_P(LocalBspOf, APartOfACellIsTheSameByTheTrianglesNearTheCell) {
+  const Model model = with_meshes("cube(1); cube(2);", {meshes()[GetParam()], meshes()[0]});
+  const Result<Scene> scene = lower(model);
+  ASSERT_TRUE(scene);
+  const UnitBoxes boxes(*scene);
+  Simplifier simplifier(*scene, boxes, 1e-10 * max_component(scene->region.size()));
+  std::mt19937 random(uint32_t(GetParam()) + 1);
+  std::vector<uint32_t> near, near_part, expected_near;
+  Formula whole, part, expected;
+  int listed = 0;
+  for (int i = 0; i < 300; ++i) {
+    Box cell = scene->region;
+    simplifier.simplify(scene->formula, cell, Expand::kUnits, whole);
+    simplifier.list_near(whole, near);
+    for (int k = 0; k < 12 && !whole.empty(); ++k) {
+      (random() % 2 ? cell.lo : cell.hi)[k % 3] = cell.center()[k % 3];
+      for (const Expand expand : {Expand::kAll, Expand::kUnits}) {
+        const Truth truth = simplifier.simplify(whole, cell, expand, part, near);
+        simplifier.list_near(part, near_part);
+        ASSERT_EQ(simplifier.simplify(whole, cell, expand, expected), truth);
+        simplifier.list_near(expected, expected_near);
+        // In any order the triangles are the same; a crowd may be cut short at others.
+        if (expand == Expand::kUnits) {
+          ASSERT_EQ(part, expected);
+        }
+        ASSERT_EQ(part.size(), expected.size());
+        std::ranges::sort(expected_near);
+        std::vector<uint32_t> sorted = near_part;
+        std::ranges::sort(sorted);
+        ASSERT_EQ(sorted, expected_near);
+        listed += near_part.size() > 4;
+      }
+      std::swap(whole, part);
+      std::swap(near, near_part);
+    }
+  }
+  EXPECT_GT(listed, 100);
+}
 
 // A corner lies on a cell's side: what is beyond reaches the cell with its rim alone.
 TEST(LocalBsp, NeighboursAcrossACornerOnACutAgree) {
