@@ -76,6 +76,45 @@ void PartWindings::probe(Vec3 q, double least_distance, const Around& around) {
   ++known_;
 }
 
+/// A point of a part that is farther than `least` from what bounds it, if one is found: the point
+/// is moved, again and again, out of what it is most beyond (Agmon; Motzkin and Schoenberg, The
+/// relaxation method for linear inequalities, 1954).
+std::optional<Vec3> PartWindings::inner_point(uint32_t part, double least, const Around& around) {
+  constexpr int kMoves = 32;
+  // The way from the part to the root.
+  const std::vector<BspTree::Node>& nodes = around.tree.nodes();
+  limits_.clear();
+  uint32_t child = BspTree::kPart | part;
+  for (uint32_t n = uint32_t(nodes.size()); n-- > 0;) {
+    // Parents stand before their children.
+    for (const int side : {0, 1}) {
+      if (nodes[n].child[side] != child) continue;
+      const CellPolygons::Plane& plane = around.polygons.planes[nodes[n].plane];
+      const double sign = side == 0 ? 1 : -1;
+      limits_.push_back({plane.n * sign, plane.value * sign});
+      child = n;
+      break;
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) {
+      Vec3 n;
+      n[axis] = sign;
+      limits_.push_back({n, around.cell.half[axis]});
+    }
+  const Vec3 half = around.cell.half;
+  Vec3 q;
+  for (double room = 0.25 * std::min({half.x, half.y, half.z}); room > least; room *= 0.25)
+    for (int i = 0; i < kMoves; ++i) {
+      const auto at = [&](const Limit& limit) { return dot(limit.n, q) + limit.value; };
+      const Limit& worst = *std::ranges::min_element(limits_, {}, at);
+      const double short_of = room - at(worst);
+      if (short_of <= 1e-3 * room) return q;
+      q += worst.n * short_of;
+    }
+  return std::nullopt;
+}
+
 void PartWindings::find(const Boundary& boundary, const CellBox& cell, const CellPolygons& in,
                         const BspTree& tree) {
   const Around around{boundary, cell, in, tree};
@@ -96,6 +135,10 @@ void PartWindings::find(const Boundary& boundary, const CellBox& cell, const Cel
   }
   for (size_t i = 0; i < kCellProbes.size() && known_ < sets_; ++i)
     probe(cell_probe(i, cell.half), enough, around);
+  for (uint32_t part = 0; part < members_.size() && known_ < sets_; ++part) {
+    if (members_[find_root(part).root].is_known) continue;
+    if (const std::optional<Vec3> q = inner_point(part, enough, around)) probe(*q, enough, around);
+  }
   if (known_ < sets_) {
     for (const BspTree::Node& node : tree.nodes())
       if (!(node.room > enough)) relate(node, in, tree);

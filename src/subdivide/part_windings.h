@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "subdivide/bsp_tree.h"
@@ -46,10 +47,17 @@ class PartWindings {
 
   Place find_root(uint32_t part);
   void relate(const BspTree::Node& node, const CellPolygons& in, const BspTree& tree);
+  std::optional<Vec3> inner_point(uint32_t part, double least, const Around& around);
   void probe(Vec3 q, double least_distance, const Around& around);
 
   std::vector<Member> members_;
   size_t sets_ = 0, known_ = 0;
+  /// n.q + value >= 0.
+  struct Limit {
+    Vec3 n;
+    double value;
+  };
+  std::vector<Limit> limits_;
   std::vector<int> winding_;
 };
 
