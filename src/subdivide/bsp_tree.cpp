@@ -23,19 +23,6 @@ Vec3 point_in(std::span<const Vec3> polygon, const double (&weights)[3]) {
   return sum / all;
 }
 
-/// How far a point in the plane of a convex polygon is inside of it. Outside: less than none, and
-/// no more than how far it is from the polygon, negated. Edges of no more than the slack have no
-/// direction that could be trusted.
-double depth_in(std::span<const Vec3> polygon, Vec3 normal, double slack, Vec3 p) {
-  double depth = kInfinity;
-  for (size_t k = 0; k < polygon.size(); ++k) {
-    const Vec3 a = polygon[k], b = polygon[k + 1 < polygon.size() ? k + 1 : 0];
-    const double l = length(b - a);
-    if (l > slack) depth = std::min(depth, dot(cross(b - a, p - a), normal) / l);
-  }
-  return depth;
-}
-
 }  // namespace
 
 /// Of the planes of some polygons, the one that cuts the fewest others and leaves as little as can

@@ -102,4 +102,14 @@ double CellPolygons::width_of(std::span<const Vec3> polygon) {
   return around > 0 ? length(area) / around : 0;
 }
 
+double depth_in(std::span<const Vec3> polygon, Vec3 normal, double slack, Vec3 p) {
+  double depth = kInfinity;
+  for (size_t k = 0; k < polygon.size(); ++k) {
+    const Vec3 a = polygon[k], b = polygon[k + 1 < polygon.size() ? k + 1 : 0];
+    const double l = length(b - a);
+    if (l > slack) depth = std::min(depth, dot(cross(b - a, p - a), normal) / l);
+  }
+  return depth;
+}
+
 }  // namespace whittle

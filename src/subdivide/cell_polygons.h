@@ -88,4 +88,9 @@ void CellPolygons::collect(const Scene& scene, const Boundary& boundary, const C
   for (const uint32_t i : reaching_) add(scene, boundary, boundary.triangles()[i], cell, larger);
 }
 
+/// How far a point in the plane of a convex polygon is inside of it. Outside: less than none, and
+/// no more than how far it is from the polygon, negated. Edges of no more than the slack have no
+/// direction that could be trusted.
+double depth_in(std::span<const Vec3> polygon, Vec3 normal, double slack, Vec3 p);
+
 }  // namespace whittle

@@ -57,18 +57,32 @@ void PartWindings::relate(const BspTree::Node& node, const CellPolygons& in, con
   }
 }
 
+/// Whether a point is so far from all triangles that the winding number there is certain.
+bool PartWindings::is_clear(Vec3 q, const CellPolygons& in) {
+  const double reach = 2 * in.slack;
+  const auto is_near = [&](const CellPolygons::Polygon& polygon) {
+    const CellPolygons::Plane& plane = in.planes[polygon.plane];
+    if (std::fabs(plane.at(q)) > reach) return false;
+    Box box;
+    for (const Vec3& corner : in.corners_of(polygon)) box.include(corner);
+    const Vec3 all{reach, reach, reach};
+    if (!Box{box.lo - all, box.hi + all}.contains(q)) return false;
+    return depth_in(in.corners_of(polygon), plane.n * double(polygon.outward), in.slack, q) >=
+           -reach;
+  };
+  return std::ranges::none_of(in.polygons, is_near);
+}
+
 /// Looks up the set of the part that a point is in, unless it is known, or the point is too near a
-/// plane.
-void PartWindings::probe(Vec3 q, double least_distance, const Around& around) {
+/// triangle.
+void PartWindings::probe(Vec3 q, const Around& around) {
   const uint32_t part = around.tree.part_at(0, q, around.polygons);
   const Place at = find_root(part);
   Member& root = members_[at.root];
   if (root.is_known) return;
-  double distance = kInfinity;
-  for (const CellPolygons::Plane& plane : around.polygons.planes)
-    distance = std::min(distance, std::fabs(plane.at(q)));
-  if (!(distance > least_distance)) {
-    if (distance > root.distance) root.probe = q, root.distance = distance, root.probed = part;
+  if (!is_clear(q, around.polygons)) {
+    root.is_probed = true;
+    root.probe = q;
     return;
   }
   root.is_known = true;
@@ -104,7 +118,7 @@ std::optional<Vec3> PartWindings::inner_point(uint32_t part, double least, const
     }
   const Vec3 half = around.cell.half;
   Vec3 q;
-  for (double room = 0.25 * std::min({half.x, half.y, half.z}); room > least; room *= 0.25)
+  for (double room = 0.5 * std::min({half.x, half.y, half.z}); room > least; room *= 0.5)
     for (int i = 0; i < kMoves; ++i) {
       const auto at = [&](const Limit& limit) { return dot(limit.n, q) + limit.value; };
       const Limit& worst = *std::ranges::min_element(limits_, {}, at);
@@ -130,23 +144,24 @@ void PartWindings::find(const Boundary& boundary, const CellBox& cell, const Cel
     const Vec3 n = in.planes[node.plane].n;
     for (const Vec3 way : {n, -n}) {
       const double far = std::min(node.room, way_out(node.sample, way, cell.half));
-      probe(node.sample + way * (0.5 * far), enough, around);
+      probe(node.sample + way * (0.5 * far), around);
     }
   }
   for (size_t i = 0; i < kCellProbes.size() && known_ < sets_; ++i)
-    probe(cell_probe(i, cell.half), enough, around);
+    probe(cell_probe(i, cell.half), around);
   for (uint32_t part = 0; part < members_.size() && known_ < sets_; ++part) {
     if (members_[find_root(part).root].is_known) continue;
-    if (const std::optional<Vec3> q = inner_point(part, enough, around)) probe(*q, enough, around);
+    if (const std::optional<Vec3> q = inner_point(part, in.slack / 16, around)) probe(*q, around);
   }
   if (known_ < sets_) {
     for (const BspTree::Node& node : tree.nodes())
       if (!(node.room > enough)) relate(node, in, tree);
-    // Where nothing in the cell has room.
-    for (Member& member : members_) {
-      const Place at = find_root(member.probed);
+    // Where nothing in the cell is clear.
+    for (const Member& member : members_) {
+      if (!member.is_probed) continue;
+      const Place at = find_root(tree.part_at(0, member.probe, in));
       Member& root = members_[at.root];
-      if (root.is_known || member.distance < 0) continue;
+      if (root.is_known) continue;
       root.is_known = true;
       root.winding = boundary.winding(cell.center + member.probe) - at.more;
     }

@@ -25,14 +25,12 @@ class PartWindings {
  private:
   /// A part, in a set of parts whose differences are known (union-find).
   struct Member {
-    uint32_t parent = 0;    ///< itself if it is the root
-    int more = 0;           ///< its winding number less the parent's
-    bool is_known = false;  ///< roots: the whole set is,
-    int winding = 0;        ///< and what it is here
-    // The best of the points that were too near a plane.
+    uint32_t parent = 0;     ///< itself if it is the root
+    int more = 0;            ///< its winding number less the parent's
+    bool is_known = false;   ///< roots: the whole set is,
+    int winding = 0;         ///< and what it is here
+    bool is_probed = false;  ///< there was a point in it, but too near a triangle:
     Vec3 probe = {};
-    double distance = -1;  ///< from the plane; negative: there was none
-    uint32_t probed = 0;   ///< the part it is in
   };
   struct Place {
     uint32_t root;
@@ -48,7 +46,8 @@ class PartWindings {
   Place find_root(uint32_t part);
   void relate(const BspTree::Node& node, const CellPolygons& in, const BspTree& tree);
   std::optional<Vec3> inner_point(uint32_t part, double least, const Around& around);
-  void probe(Vec3 q, double least_distance, const Around& around);
+  static bool is_clear(Vec3 q, const CellPolygons& in);
+  void probe(Vec3 q, const Around& around);
 
   std::vector<Member> members_;
   size_t sets_ = 0, known_ = 0;

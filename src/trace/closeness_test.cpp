@@ -6,9 +6,9 @@ namespace whittle {
 namespace {
 
 /// A wall at y = `at`.
-class Wall : public Tracer {
+class FlatWall : public Tracer {
  public:
-  explicit Wall(float at) : at_(at) {}
+  explicit FlatWall(float at) : at_(at) {}
   const char* name() const override { return "wall"; }
   Frame render(const Camera&, const Progress&) override { return {}; }
   void probe(const Camera& camera, std::span<const PixelPosition> positions,
@@ -30,7 +30,7 @@ TEST(Closeness, IsThePixelsOfThatWhichFillsThePicture) {
   // 100 across at a distance of 200, where the picture is 100 across.
   const Camera camera{.eye = {0, -200, 0}, .half_height = 0.25, .width = 64, .height = 64};
   EXPECT_NEAR(rays_at_most(camera, kRegion), 64 * 64, 1e-6);
-  Wall near(200), far(400), nothing(0);
+  FlatWall near(200), far(400), nothing(0);
   EXPECT_NEAR(rays_at_nearest_hit(near, camera, kRegion), 64 * 64, 64);
   EXPECT_NEAR(rays_at_nearest_hit(far, camera, kRegion), 64 * 64 / 4.0, 16);
   EXPECT_EQ(rays_at_nearest_hit(nothing, camera, kRegion), 0);
@@ -39,7 +39,7 @@ TEST(Closeness, IsThePixelsOfThatWhichFillsThePicture) {
 TEST(Closeness, HasNoBoundForAnEyeAmongThings) {
   const Camera camera{.eye = {0, 10, 0}, .half_height = 0.25, .width = 64, .height = 64};
   EXPECT_EQ(rays_at_most(camera, kRegion), kInfinity);
-  Wall wall(2);
+  FlatWall wall(2);
   EXPECT_NEAR(rays_at_nearest_hit(wall, camera, kRegion), 64 * 64 * 1e4, 64 * 1e4);
   EXPECT_EQ(rays_at_most(camera, Box{}), 0);
 }
@@ -52,7 +52,7 @@ TEST(Closeness, IsTheSameEverywhereForParallelRays) {
                       .width = 64,
                       .height = 64};
   EXPECT_NEAR(rays_at_most(camera, kRegion), 64 * 64 * 100, 1e-6);
-  Wall wall(2);
+  FlatWall wall(2);
   EXPECT_NEAR(rays_at_nearest_hit(wall, camera, kRegion), 64 * 64 * 100, 1e-6);
 }
 
