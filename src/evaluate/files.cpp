@@ -96,6 +96,7 @@ std::shared_ptr<const TriangleMesh> Files::read_solid(const Leaf& leaf, SourceLo
   Result<RawMesh> raw = map ? read_height_map(*bytes, *map, most) : read_mesh(*bytes, file, most);
   flat_.erase(file);
   if (!raw) return refuse(raw.error().message);
+  if (raw->faces.empty() && raw->triangles.empty()) return refuse("there are no faces in it");
   ClosedMesh closed = close_mesh(*raw, map ? 0 : kPrintedDigits);
   if (closed.open_edges > 0) {
     const Vec3 at = closed.first_open;
