@@ -57,9 +57,10 @@ TEST_F(NamedFileTest, AMissingFileIsAWarningAndAnOperand) {
 TEST_F(NamedFileTest, WhatCannotBeReadIsSaid) {
   write("part.xyz", "what");
   write("part.off", "OFF\nwhat");
+  write("part.obj", "what");
   write("part.stl", tetrahedron_);
   fs::create_directories(folder_.path() / "folder.stl");
-  for (const char* name : {"part.xyz", "part.off", "folder.stl", ""}) {
+  for (const char* name : {"part.xyz", "part.off", "part.obj", "folder.stl", ""}) {
     const Read read = evaluated("import(\"" + std::string(name) + "\"); cube();", options());
     EXPECT_EQ(read.warnings.size(), 1u) << name;
     EXPECT_TRUE(read.unsupported) << name;
