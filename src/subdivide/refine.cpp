@@ -37,9 +37,6 @@ bool pays_off(uint32_t literals, double rays, uint32_t quick = kTableLiterals) {
          kSplitEach * literals;
 }
 
-/// Where edges are, and so the most half-spaces, pictures send several rays through a pixel.
-constexpr double kLooks = 2;
-
 /// Of the memory that is left each part of a cell gets as much as it has of the literals, and as if
 /// it had so many more: where few surfaces meet for good, many cells are needed too.
 constexpr uint32_t kFew = 16;
@@ -165,7 +162,7 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
   const double edge = max_component(open.box.size()) / region_edge_;
   const Box world{open.box.lo + scene_.origin, open.box.hi + scene_.origin};
   const bool small = settings_.is_small && settings_.is_small(world);
-  const double rays = edge * edge * kLooks * settings_.rays;
+  const double rays = edge * edge * settings_.rays;
   const bool is_auto = settings_.leaf_size == kAutoLeafSize;
   // At 512 x 512 rays this is the smallest edge that others have.
   constexpr double kFewestRays = 1.0 / 1024;
