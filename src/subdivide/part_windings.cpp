@@ -94,7 +94,7 @@ void PartWindings::probe(Vec3 q, const Around& around) {
 /// is moved, again and again, out of what it is most beyond (Agmon; Motzkin and Schoenberg, The
 /// relaxation method for linear inequalities, 1954).
 std::optional<Vec3> PartWindings::inner_point(uint32_t part, double least, const Around& around) {
-  constexpr int kMoves = 32;
+  constexpr int kMoves = 12;
   // The way from the part to the root.
   const std::vector<BspTree::Node>& nodes = around.tree.nodes();
   limits_.clear();
@@ -120,11 +120,15 @@ std::optional<Vec3> PartWindings::inner_point(uint32_t part, double least, const
   Vec3 q;
   for (double room = 0.5 * std::min({half.x, half.y, half.z}); room > least; room *= 0.5)
     for (int i = 0; i < kMoves; ++i) {
-      const auto at = [&](const Limit& limit) { return dot(limit.n, q) + limit.value; };
-      const Limit& worst = *std::ranges::min_element(limits_, {}, at);
-      const double short_of = room - at(worst);
+      double lowest = kInfinity;
+      Vec3 inward;
+      for (const Limit& limit : limits_) {
+        const double at = dot(limit.n, q) + limit.value;
+        if (at < lowest) lowest = at, inward = limit.n;
+      }
+      const double short_of = room - lowest;
       if (short_of <= 1e-3 * room) return q;
-      q += worst.n * short_of;
+      q += inward * short_of;
     }
   return std::nullopt;
 }
