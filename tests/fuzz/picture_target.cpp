@@ -58,6 +58,14 @@ bool is_noise(const Model& model, const Bounds& b) {
          tolerance(b) < (has_mesh ? 1e-10 : 1e-13) * largest_coordinate(model, b);
 }
 
+/// Whether planes of a boundary were moved onto others. Cells may differ by the slack that makes
+/// (decision 0032), and square to an axis a ray can run along between a wall and its plane.
+bool has_moved_walls(const Scene& scene) {
+  return std::ranges::any_of(scene.boundaries, [](const Boundary& boundary) {
+    return boundary.slack() > 1e3 * boundary.rounding();
+  });
+}
+
 void check(std::span<const uint8_t> bytes) {
   PictureInput input = decode_picture(bytes, 0);
   Model model = model_of(input.text, "fuzz.csg");
@@ -78,6 +86,7 @@ void check(std::span<const uint8_t> bytes) {
   // Where it ends on such an edge, whose surface that is is rounding's word too, and the four
   // places beside it may all show another.
   const bool aslant = input.view < kAslantViews;
+  if (!aslant && has_moved_walls(cpu.scene)) return;
   const auto any_owner = [](const Ray&, const Hit&, uint32_t) { return true; };
   const AgreementReport report =
       find_differences(model, *cpu.tracer, *oracle, camera_of(model, input.view),
