@@ -37,6 +37,7 @@ test_packages=(
   povray              # an independent renderer to agree with
   openscad            # flattens .scad files; a picture to agree with
   xvfb                # a display for it
+  make                # reads the dependencies that -d writes
 )
 
 report_packages=(
@@ -53,6 +54,6 @@ lint_packages=(
 )
 
 sanitizer_packages=(
-  clang               # presets asan, tsan and fuzz: twice as fast as g++ with sanitizers,
+  clang               # presets asan and tsan: twice as fast as g++ with sanitizers,
   libclang-rt-dev     # its sanitizers, and libFuzzer
 )

@@ -75,6 +75,7 @@ void warn_of(const Built& built, const Shape& shape, SourceLocation where, Warni
 void build_polyhedra(Model& model, int threads, Budget& budget, Warnings& warnings,
                      SourceLocation& where) {
   std::vector<uint32_t> polyhedra;  // their nodes
+  std::vector<uint64_t> facets;     // and how many each of them has as it is written
   uint64_t all_facets = 0;
   for (size_t i = 0; i < model.nodes.size();) {
     const Node& node = model.nodes[i];
@@ -85,11 +86,12 @@ void build_polyhedra(Model& model, int threads, Budget& budget, Warnings& warnin
     if (node.kind == NodeKind::kPrimitive) {
       where = node.where;
       const Shape& shape = model.primitives[node.payload].shape;
-      const uint64_t facets = facet_count(shape);
-      if (!budget.spend(facets)) return;
+      const uint64_t count = facet_count(shape);
+      if (!budget.spend(count)) return;
       if (std::holds_alternative<Polyhedron>(shape)) {
         polyhedra.push_back(uint32_t(i));
-        all_facets += facets;
+        facets.push_back(count);
+        all_facets += count;
       }
     }
     ++i;
@@ -98,12 +100,8 @@ void build_polyhedra(Model& model, int threads, Budget& budget, Warnings& warnin
     return model.primitives[model.nodes[node].payload].shape;
   };
   std::vector<Built> built(polyhedra.size());
-  std::vector<uint64_t> facets(polyhedra.size());
   const auto build_some = [&](size_t first, size_t last, size_t) {
-    for (size_t k = first; k < last; ++k) {
-      facets[k] = facet_count(shape_of(polyhedra[k]));
-      built[k] = build(shape_of(polyhedra[k]));
-    }
+    for (size_t k = first; k < last; ++k) built[k] = build(shape_of(polyhedra[k]));
   };
   if (all_facets >= kWorthThreads && threads != 1)
     Workers(threads).for_parts(polyhedra.size(), 1, build_some);

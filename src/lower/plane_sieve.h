@@ -2,12 +2,12 @@
 // models: of a million facets of a mesh hardly one comes near another.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "base/vec.h"
+#include "lower/cell_hash.h"
 
 namespace whittle {
 
@@ -47,7 +47,7 @@ class PlaneSieve {
     next_.resize(number + 1, kNone);
     const bool flip = turned(plane.n) < 0;
     Cell cell;
-    for (size_t i = 0; i < 4; ++i) cell[i] = int64_t(std::floor(coordinate(plane, flip, i)));
+    for (size_t i = 0; i < 4; ++i) cell[i] = cell_coordinate(coordinate(plane, flip, i));
     const uint64_t hash = hash_of(cell);
     Slot& slot = slots_[find(hash)];
     if (slot.last == kTaken) return false;
@@ -62,7 +62,7 @@ class PlaneSieve {
   static constexpr size_t kFewSlots = 64;  ///< to begin with; a power of two
   /// A cell's width in slacks: most of what is looked for is in one cell.
   static constexpr double kWidth = 16;
-  using Cell = std::array<int64_t, 4>;
+  using Cell = CellPlace<4>;
   /// Different cells with equal tags are one cell here: then more seems to be near than is.
   struct Slot {
     uint32_t tag = 0;
@@ -83,8 +83,8 @@ class PlaneSieve {
     Cell from, to;
     for (size_t i = 0; i < 4; ++i) {
       const double x = coordinate(plane, flip, i);
-      from[i] = int64_t(std::floor(x - 1 / kWidth));
-      to[i] = int64_t(std::floor(x + 1 / kWidth));
+      from[i] = cell_coordinate(x - 1 / kWidth);
+      to[i] = cell_coordinate(x + 1 / kWidth);
     }
     bool any = false;
     Cell cell;
@@ -102,14 +102,6 @@ class PlaneSieve {
     return any;
   }
 
-  static uint64_t hash_of(const Cell& cell) {
-    uint64_t hash = 0;
-    for (const int64_t c : cell) {
-      hash = (hash ^ uint64_t(c)) * 0x9e3779b97f4a7c15ull;
-      hash ^= hash >> 32;
-    }
-    return hash;
-  }
   /// Slots go by a hash of the tag, so that a table can grow without the planes.
   static uint32_t tag_of(uint64_t hash) { return uint32_t(hash); }
   size_t first_slot(uint32_t tag) const {

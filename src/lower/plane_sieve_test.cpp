@@ -66,6 +66,19 @@ TEST(PlaneSieve, NothingNearIsPassedOver) {
   EXPECT_GT(alone, 1000);
 }
 
+// Where doubles cannot tell parts of a cell apart any more, all on one side is near.
+TEST(PlaneSieve, NothingIsToldApartFartherThanDoublesCan) {
+  const Vec3 up{0, 0, 1};
+  const double cell = 16 * kOffsetSlack;
+  for (const double far : {2e15 * cell, 1e300}) {
+    PlaneSieve sieve(kOffsetSlack, kNormalSlack);
+    EXPECT_TRUE(sieve.add({up, far}, 0));
+    EXPECT_FALSE(sieve.take_near({up, 1}, [](uint32_t) {}));
+    EXPECT_FALSE(sieve.take_near({up, -far}, [](uint32_t) {}));
+    EXPECT_TRUE(sieve.take_near({-up, -1.5 * far}, [](uint32_t) {}));
+  }
+}
+
 TEST(PlaneSieve, PlanesThatStandFarApartStandAlone) {
   PlaneSieve sieve(kOffsetSlack, kNormalSlack);
   int others = 0;

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <vector>
+
+#include "lower/cell_hash.h"
 
 namespace whittle {
 
@@ -50,7 +51,7 @@ class PointIndex {
  private:
   static constexpr uint32_t kNone = UINT32_MAX;
   static constexpr size_t kFewSlots = 64;  ///< to begin with; a power of two
-  using Cell = std::array<int64_t, 3>;
+  using Cell = CellPlace<3>;
   struct Place {
     Point point;
     uint32_t next;  ///< in the chain of the cells that have this slot
@@ -58,22 +59,11 @@ class PointIndex {
   };
 
   static Cell cell_of(const Point& p) {
-    // What is beyond this is in the last cell.
-    constexpr double kFar = 1e15;
     Cell cell;
-    for (int i = 0; i < 3; ++i)
-      cell[i] =
-          p[i] > -kFar ? p[i] < kFar ? int64_t(std::floor(p[i])) : int64_t(kFar) : -int64_t(kFar);
+    for (size_t i = 0; i < 3; ++i) cell[i] = cell_coordinate(p[i]);
     return cell;
   }
-  size_t slot_of(const Cell& cell) const {
-    uint64_t hash = 0;
-    for (const int64_t c : cell) {
-      hash = (hash ^ uint64_t(c)) * 0x9e3779b97f4a7c15ull;
-      hash ^= hash >> 32;
-    }
-    return hash & (head_.size() - 1);
-  }
+  size_t slot_of(const Cell& cell) const { return hash_of(cell) & (head_.size() - 1); }
 
   void link(uint32_t place) {
     uint32_t& head = head_[slot_of(cell_of(places_[place].point))];

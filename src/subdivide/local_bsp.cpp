@@ -3,14 +3,13 @@
 #include <algorithm>
 
 #include "subdivide/cell_probes.h"
-#include "subdivide/near_triangles.h"
 
 namespace whittle {
 namespace {
 
 /// The triangles that reach a cell that is larger by a margin.
 template <class Visit>
-void visit_in(const Boundary& boundary, const LocalBsp::Known& known, const CellBox& cell,
+void visit_in(const Boundary& boundary, const ListedTriangles& known, const CellBox& cell,
               double margin, const Visit& visit) {
   const Vec3 half = cell.half + Vec3{margin, margin, margin};
   if (known)
@@ -21,7 +20,7 @@ void visit_in(const Boundary& boundary, const LocalBsp::Known& known, const Cell
 
 }  // namespace
 
-uint32_t LocalBsp::count(const Unit& unit, const CellBox& cell, const Known& known) {
+uint32_t LocalBsp::count(const Unit& unit, const CellBox& cell, const ListedTriangles& known) {
   constexpr uint32_t kMostTriangles = 64;
   const Boundary& boundary = scene_.boundaries[unit.boundary];
   counted_.clear();
@@ -49,7 +48,7 @@ bool LocalBsp::is_inside(const Unit& unit, const CellBox& cell) const {
 }
 
 std::span<const Token> LocalBsp::formula(const Unit& unit, const CellBox& cell, bool negated,
-                                         const Known& known) {
+                                         const ListedTriangles& known) {
   const Boundary& boundary = scene_.boundaries[unit.boundary];
   polygons_.collect(scene_, boundary, cell, [&](const auto& take) {
     visit_in(boundary, known, cell, boundary.slack(), take);

@@ -5,33 +5,32 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "subdivide/bsp_formula.h"
+#include "subdivide/near_triangles.h"
 
 namespace whittle {
 
 /// Used by one thread at a time; its memory serves all cells.
 class LocalBsp {
  public:
-  /// Indices into Boundary::triangles().
-  using Known = std::optional<std::span<const uint32_t>>;
-
   explicit LocalBsp(const Scene& scene) : scene_(scene) {}
 
   /// More half-spaces than this are not counted.
   static constexpr uint32_t kMostCounted = 8;
   static constexpr uint32_t kTooMany = UINT32_MAX;
 
-  /// How many half-spaces the triangles in a cell lie on; kTooMany for more than kMostCounted. With
+  /// How many half-spaces the triangles in a cell lie on; kTooMany for more than kMostCounted, or
+  /// for too many triangles. With
   /// 0 the cell is inside or outside as a whole: is_inside().
   ///
   /// `known`: triangles, among which are all that reach the cell. Those that do are in listed()
   /// then, if there are few.
-  uint32_t count(const Unit& unit, const CellBox& cell, const Known& known = std::nullopt);
-  Known listed() const { return listed_; }
+  uint32_t count(const Unit& unit, const CellBox& cell,
+                 const ListedTriangles& known = std::nullopt);
+  ListedTriangles listed() const { return listed_; }
 
   /// Of a cell in which there is no triangle.
   bool is_inside(const Unit& unit, const CellBox& cell) const;
@@ -39,7 +38,7 @@ class LocalBsp {
   /// The formula in the cell: an operand, whose groups have no passes among them. An empty group if
   /// it is constant there. What it refers to is overwritten by the next call.
   std::span<const Token> formula(const Unit& unit, const CellBox& cell, bool negated,
-                                 const Known& known = std::nullopt);
+                                 const ListedTriangles& known = std::nullopt);
   /// Of that formula: how many operands its outermost group has.
   uint32_t operands() const { return formula_.operands(); }
 
@@ -51,7 +50,7 @@ class LocalBsp {
   BspFormula formula_;
   Formula constant_;
   std::vector<uint32_t> counted_, triangles_;
-  Known listed_;
+  ListedTriangles listed_;
 };
 
 }  // namespace whittle

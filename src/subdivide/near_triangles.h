@@ -9,6 +9,9 @@
 
 namespace whittle {
 
+/// Indices into Boundary::triangles(), if they are listed.
+using ListedTriangles = std::optional<std::span<const uint32_t>>;
+
 /// For each boundary that is whole in a formula, in the formula's order: its unit, how many
 /// triangles are listed, and these, as indices into Boundary::triangles(). kMany and none if there
 /// are too many to list. An empty row lists nothing at all.
@@ -21,8 +24,7 @@ class NearTriangles {
   static constexpr size_t kMostWords = 2 + kMostListed;
 
   /// Adds a boundary; nothing: too many.
-  static void add(uint32_t unit, std::optional<std::span<const uint32_t>> triangles,
-                  std::vector<uint32_t>& row) {
+  static void add(uint32_t unit, ListedTriangles triangles, std::vector<uint32_t>& row) {
     row.push_back(unit);
     row.push_back(triangles ? uint32_t(triangles->size()) : kMany);
     if (triangles) row.insert(row.end(), triangles->begin(), triangles->end());
@@ -33,7 +35,7 @@ class NearTriangles {
 
   /// Those of the next boundary that is this unit, if they are listed; others before it are passed
   /// over.
-  std::optional<std::span<const uint32_t>> next(uint32_t unit) {
+  ListedTriangles next(uint32_t unit) {
     while (!row_.empty()) {
       const uint32_t its_unit = row_[0], number = row_[1];
       const std::span<const uint32_t> its = row_.subspan(2, number == kMany ? 0 : number);

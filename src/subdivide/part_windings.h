@@ -14,7 +14,8 @@ namespace whittle {
 /// A node tells by how much the winding numbers differ of the two parts on either side of its
 /// sample, so the n - 1 nodes relate all n parts, and one of them is looked up in the whole
 /// boundary. That goes for samples with room around them. What is only held together by others is
-/// looked up by itself; only where nothing in it has room does it follow from its neighbours.
+/// looked up by itself, at a point that no triangle is near; only where no such point is found does
+/// it follow from its neighbours.
 class PartWindings {
  public:
   void find(const Boundary& boundary, const CellBox& cell, const CellPolygons& in,
@@ -43,6 +44,12 @@ class PartWindings {
     const BspTree& tree;
   };
 
+  /// n.q + value >= 0.
+  struct Limit {
+    Vec3 n;
+    double value;
+  };
+
   Place find_root(uint32_t part);
   void relate(const BspTree::Node& node, const CellPolygons& in, const BspTree& tree);
   std::optional<Vec3> inner_point(uint32_t part, double least, const Around& around);
@@ -50,12 +57,7 @@ class PartWindings {
   void probe(Vec3 q, const Around& around);
 
   std::vector<Member> members_;
-  size_t sets_ = 0, known_ = 0;
-  /// n.q + value >= 0.
-  struct Limit {
-    Vec3 n;
-    double value;
-  };
+  size_t sets_ = 0, known_ = 0;  ///< sets in all, and those that are known
   std::vector<Limit> limits_;
   std::vector<int> winding_;
 };

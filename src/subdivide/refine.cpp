@@ -58,11 +58,6 @@ Expand expand_of(uint32_t literals) {
   return literals <= kExpandAll ? Expand::kUnits : Expand::kLarge;
 }
 
-bool has_units(std::span<const Token> formula) {
-  return std::any_of(formula.begin(), formula.end(),
-                     [](Token token) { return token.kind() == TokenKind::kUnit; });
-}
-
 void wait_a_little(int round) {
   if (round < kSpins)
     std::this_thread::yield();
@@ -150,11 +145,7 @@ size_t Refiner::bytes_unsplit(size_t literals, size_t words) const {
 /// that are listed.
 size_t Refiner::most_words(std::span<const Token> formula) const {
   if (scene_.boundaries.empty()) return formula.size();
-  const auto is_boundary = [this](Token token) {
-    return token.kind() == TokenKind::kUnit && !scene_.units[token.payload()].is_conjunction();
-  };
-  return formula.size() +
-         size_t(std::ranges::count_if(formula, is_boundary)) * NearTriangles::kMostWords;
+  return formula.size() + count_boundaries(scene_, formula) * NearTriangles::kMostWords;
 }
 
 /// Whether the cell is not split, and then what it is.
@@ -181,7 +172,7 @@ bool Refiner::ends(const OpenCell& open, CellLink& link) {
   // To split a crowd of triangles takes much less than to make a formula of them.
   const bool is_long =
       !must_end_anyway &&
-      (open.is_crowded || (open.literals > kExpandAll && !has_few_half_spaces(formula)));
+      (open.is_crowded || (open.literals > kExpandAll && !has_few_half_spaces(scene_, formula)));
   is_small_ = small;
   across_ = is_long ? Across::kUnknown : Across::kSame;
   if (is_long && !small) return false;
@@ -475,30 +466,6 @@ CellLink Refiner::open_region() {
   }
   return open({scene_.region, settings_.memory, 0, 0, size.literals, size.is_crowded, 0, 0},
               formula, near);
-}
-
-/// Whether a formula, however long, has no more half-spaces than a truth table can hold: many
-/// copies of one body.
-bool Refiner::has_few_half_spaces(std::span<const Token> formula) const {
-  std::array<uint32_t, kTableLiterals> known;
-  size_t count = 0;
-  const auto is_one_more_known = [&](uint32_t face) {
-    const uint32_t number = scene_.faces[face].literal >> 1;
-    if (std::find(known.begin(), known.begin() + count, number) != known.begin() + count)
-      return true;
-    if (count == known.size()) return false;
-    known[count++] = number;
-    return true;
-  };
-  return std::all_of(formula.begin(), formula.end(), [&](Token token) {
-    if (token.is_group()) return true;
-    if (token.kind() == TokenKind::kFace) return is_one_more_known(token.payload());
-    const Unit& unit = scene_.units[token.payload()];
-    if (!unit.is_conjunction()) return false;
-    for (uint32_t k = 0; k < unit.face_count; ++k)
-      if (!is_one_more_known(unit.first_face + k)) return false;
-    return true;
-  });
 }
 
 bool Refiner::simple_enough() const {

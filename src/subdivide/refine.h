@@ -117,7 +117,6 @@ class Refiner {
   void halve(const OpenCell& parent, Cut cut, Halves& halves);
   CellLink split(const Cell& cell, const OpenCell& open);
   CellLink leaf();
-  bool has_few_half_spaces(std::span<const Token> formula) const;
   bool simple_enough() const;
   bool is_wide(std::span<const Token> formula, uint32_t depth) const;
   std::optional<CellLink> split_wide(const Cell& cell, const OpenCell& parent,

@@ -57,12 +57,12 @@ Truth Simplifier::boundary(Token token, const CellBox& cell, Expand expand, Form
                            Kept& kept) {
   const Unit& unit = scene_.units[token.payload()];
   const bool negated = token.negated();
-  const LocalBsp::Known known = near_.next(token.payload());
+  const ListedTriangles known = near_.next(token.payload());
   if (expand != Expand::kAll) {
     const uint32_t half_spaces = bsp_.count(unit, cell, known);
     if (half_spaces == 0)
       return truth(bsp_.is_inside(unit, cell) ? Side::kInside : Side::kOutside, negated);
-    const LocalBsp::Known listed = bsp_.listed();
+    const ListedTriangles listed = bsp_.listed();
     counted_.push_back({token.payload(), half_spaces, uint32_t(listed_.size()),
                         listed ? uint32_t(listed->size()) : NearTriangles::kMany});
     if (listed) listed_.insert(listed_.end(), listed->begin(), listed->end());
@@ -311,8 +311,7 @@ void Simplifier::for_each_counted(std::span<const Token> written, const Visit& v
   if (counted_.empty()) return;
   auto next = counted_.begin();
   for (const Token token : written) {
-    if (token.kind() != TokenKind::kUnit || scene_.units[token.payload()].is_conjunction())
-      continue;
+    if (!is_boundary(scene_, token)) continue;
     while (next->unit != token.payload()) ++next;
     visit(*next++);
   }
@@ -332,22 +331,11 @@ Simplifier::Size Simplifier::size_of(std::span<const Token> written) const {
 void Simplifier::list_near(std::span<const Token> written, std::vector<uint32_t>& near) const {
   near.clear();
   for_each_counted(written, [&](const Counted& counted) {
-    LocalBsp::Known triangles;
+    ListedTriangles triangles;
     if (counted.number != NearTriangles::kMany)
       triangles = std::span(listed_).subspan(counted.first, counted.number);
     NearTriangles::add(counted.unit, triangles, near);
   });
-}
-
-uint32_t expanded_size(const Scene& scene, std::span<const Token> formula) {
-  uint32_t count = 0;
-  for (const Token token : formula) {
-    if (token.kind() == TokenKind::kFace) ++count;
-    if (token.kind() != TokenKind::kUnit) continue;
-    const Unit& unit = scene.units[token.payload()];
-    count += unit.is_conjunction() ? unit.face_count : kManyLiterals;
-  }
-  return count;
 }
 
 }  // namespace whittle

@@ -10,6 +10,7 @@
 
 #include "lower/scene.h"
 #include "subdivide/classify.h"
+#include "subdivide/formula_size.h"
 #include "subdivide/local_bsp.h"
 #include "subdivide/near_triangles.h"
 #include "subdivide/unit_boxes.h"
@@ -78,6 +79,8 @@ class Simplifier {
   bool settle_pairs(const CellBox& cell, size_t first, Formula& out) const;
   void drop_far_facets(const Unit& unit, const CellBox& cell, size_t first, Formula& out) const;
   bool meets(std::span<const Token> faces, const CellBox& cell) const;
+  template <class Visit>
+  void for_each_counted(std::span<const Token> written, const Visit& visit) const;
   Kept close_group(const Open& group, Formula& out) const;
   bool joins_group_around(TokenKind kind, size_t depth) const;
 
@@ -95,16 +98,6 @@ class Simplifier {
   std::vector<Counted> counted_;
   std::vector<uint32_t> listed_;
   NearTriangles near_;  ///< the cell's around; what is left of it
-
-  template <class Visit>
-  void for_each_counted(std::span<const Token> written, const Visit& visit) const;
 };
-
-/// What a boundary counts for whose half-spaces in a cell are not counted: as if they were one
-/// too many. It will be split until they are few.
-inline constexpr uint32_t kManyLiterals = LocalBsp::kMostCounted + 1;
-
-/// Literals that a formula would have with all its primitives expanded.
-uint32_t expanded_size(const Scene& scene, std::span<const Token> formula);
 
 }  // namespace whittle

@@ -115,7 +115,7 @@ class Search {
       cell.faces = cell.formula;
       return true;
     }
-    if (!has_boundaries(cell.formula)) return false;
+    if (count_boundaries(scene_, cell.formula) == 0) return false;
     tokens_ += cell.formula.size();
     const Truth truth = simplifier_.simplify(cell.formula, cell.box, Expand::kAll, cell.faces);
     if (truth == Truth::kTrue) best_ = std::max(best_, reach_of(cell.box));
@@ -188,17 +188,6 @@ class Search {
     }
     if (max_component(bend) < accuracy_ * 1e-3) return otherwise;
     return bend.x >= bend.y && bend.x >= bend.z ? 0 : bend.y >= bend.z ? 1 : 2;
-  }
-
-  bool has_units(const Formula& formula) const {
-    return std::ranges::any_of(formula,
-                               [](Token token) { return token.kind() == TokenKind::kUnit; });
-  }
-
-  bool has_boundaries(const Formula& formula) const {
-    return std::ranges::any_of(formula, [&](Token token) {
-      return token.kind() == TokenKind::kUnit && !scene_.units[token.payload()].is_conjunction();
-    });
   }
 
   /// How far the formula can reach in the cell, and on the way the best point found in it.
