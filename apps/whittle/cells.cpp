@@ -70,7 +70,7 @@ Result<Picture> draw(const CellsArguments& a, const Model& model, Renderer& rend
   const Camera camera = renderer.camera(a.view);
   if (Status prepared = renderer.prepare(camera, Refine::kAll); !prepared) return prepared.error();
   progress.stage("tracing");
-  const Result<Frame> frame = renderer.trace(camera, progress.share());
+  const Result<Frame> frame = renderer.trace(camera, {.progress = progress.share()});
   if (!frame) return frame.error();
   progress.stage("drawing");
   Result<Picture> picture =

@@ -155,7 +155,7 @@ Status draw(const RenderArguments& a, const std::vector<Output>& outputs, const 
   ProgressLine progress(!a.loading.quiet, "subdividing");
   if (Status prepared = renderer.prepare(camera); !prepared) return prepared;
   progress.stage("tracing");
-  Result<Frame> traced = renderer.trace(camera, progress.share());
+  Result<Frame> traced = renderer.trace(camera, {.progress = progress.share()});
   if (!traced) return traced.error();
   frame = *std::move(traced);
   const bool shows_color =

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "image/shade.h"
@@ -20,9 +21,9 @@ std::vector<uint8_t> edge_mask(const Frame& frame, const Camera& camera, const W
 /// averaged in the studio style; the others define display values and know no light, so there those
 /// are averaged, as OpenGL's multisampling does. Without background the colour is the mean of the
 /// samples that hit, and alpha their share. With shadows, their edges are edges too. Deterministic;
-/// n <= 1 is shade().
+/// n <= 1 is shade(). Once a stop is requested it returns soon, and the picture is of no use.
 Picture shade_antialiased(Tracer& tracer, const Camera& camera, const Frame& frame,
                           std::span<const Appearance> appearances, const ShadeSettings& settings,
-                          int n, const Workers& workers);
+                          int n, const Workers& workers, const std::stop_token& stop = {});
 
 }  // namespace whittle

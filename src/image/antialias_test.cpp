@@ -19,7 +19,7 @@ class FunctionTracer : public Tracer {
  public:
   explicit FunctionTracer(std::function<Hit(const Ray&)> shoot) : shoot_(std::move(shoot)) {}
   const char* name() const override { return "function"; }
-  Frame render(const Camera& camera, const Progress&) override {
+  Frame render(const Camera& camera, const RenderControl&) override {
     Frame frame(camera.width, camera.height);
     for (int y = 0; y < camera.height; ++y) {
       for (int x = 0; x < camera.width; ++x) frame.at(x, y) = shoot_(camera.ray(x + 0.5, y + 0.5));
@@ -32,6 +32,9 @@ class FunctionTracer : public Tracer {
       hits[i] = shoot_(camera.ray(double(positions[i].x), double(positions[i].y)));
     }
     probed += positions.size();
+  }
+  void cast(std::span<const Ray> rays, std::span<Hit> hits) override {
+    std::ranges::transform(rays, hits.begin(), shoot_);
   }
   size_t probed = 0;
 

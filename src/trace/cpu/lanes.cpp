@@ -428,6 +428,18 @@ void trace_positions(const LaneScene& scene, const Camera& camera,
   });
 }
 
+void trace_rays(const LaneScene& scene, std::span<const Ray> all, Hit* hits, LaneScratch& scratch) {
+  scratch.stats.rays += all.size();
+  std::array<uint32_t, kTileRays> places;
+  for (uint32_t i = 0; i < kTileRays; ++i) places[i] = i;
+  for (size_t first = 0; first < all.size(); first += Tile::most_rays()) {
+    Tile tile;
+    tile.make_rays(scene, all.subspan(first, std::min(Tile::most_rays(), all.size() - first)));
+    Walk(scene, tile, scratch, 0, nullptr).all();
+    tile.write(scene, places.data(), hits + first);
+  }
+}
+
 void retrace_positions(const LaneScene& scene, const Camera& camera,
                        std::span<const PixelPosition> all_positions, const uint32_t* all_places,
                        Hit* hits, LaneScratch& scratch, const TileRecord& record) {
@@ -466,12 +478,18 @@ HWY_AFTER_NAMESPACE();
 namespace whittle {
 
 HWY_EXPORT(trace_positions);
+HWY_EXPORT(trace_rays);
 HWY_EXPORT(retrace_positions);
 
 void trace_lanes(const LaneScene& scene, const Camera& camera,
                  std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
                  LaneScratch& scratch, TileRecord* record) {
   HWY_DYNAMIC_DISPATCH(trace_positions)(scene, camera, positions, places, hits, scratch, record);
+}
+
+void trace_lanes(const LaneScene& scene, std::span<const Ray> rays, Hit* hits,
+                 LaneScratch& scratch) {
+  HWY_DYNAMIC_DISPATCH(trace_rays)(scene, rays, hits, scratch);
 }
 
 void retrace_lanes(const LaneScene& scene, const Camera& camera,

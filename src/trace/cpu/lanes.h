@@ -96,6 +96,10 @@ void trace_lanes(const LaneScene& scene, const Camera& camera,
                  std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
                  LaneScratch& scratch, TileRecord* record = nullptr);
 
+/// The hits of any rays, which had better be close to one another; hits.size() == rays.size().
+void trace_lanes(const LaneScene& scene, std::span<const Ray> rays, Hit* hits,
+                 LaneScratch& scratch);
+
 /// The same hits from what trace_lanes() recorded with the same instruction set: no walk, only the
 /// leaves in which something is met.
 void retrace_lanes(const LaneScene& scene, const Camera& camera,

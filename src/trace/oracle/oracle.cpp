@@ -51,11 +51,15 @@ class OracleTracer final : public Tracer {
 
   const char* name() const override { return "oracle"; }
 
-  Frame render(const Camera& camera, const Progress& progress) override {
+  Frame render(const Camera& camera, const RenderControl& control) override {
     Frame frame(camera.width, camera.height);
-    for_ranges(size_t(camera.height), progress, [&](size_t y, Scratch& scratch) {
-      for (int x = 0; x < camera.width; ++x)
-        frame.at(x, int(y)) = trace(camera.ray(x + 0.5, double(y) + 0.5), scratch);
+    for_ranges(size_t(camera.height), control.progress, [&](size_t row, Scratch& scratch) {
+      const int y = int(row);
+      for (int x = 0; x < camera.width; ++x) {
+        if (control.stop.stop_requested()) return;
+        frame.at(x, y) = trace(camera.ray(x + 0.5, y + 0.5), scratch);
+      }
+      if (control.part_seen) control.part_seen(frame, {0, y, camera.width, y + 1});
     });
     return frame;
   }
@@ -65,6 +69,11 @@ class OracleTracer final : public Tracer {
     for_ranges(positions.size(), {}, [&](size_t i, Scratch& scratch) {
       hits[i] = trace(camera.ray(double(positions[i].x), double(positions[i].y)), scratch);
     });
+  }
+
+  void cast(std::span<const Ray> rays, std::span<Hit> hits) override {
+    for_ranges(rays.size(), {},
+               [&](size_t i, Scratch& scratch) { hits[i] = trace(rays[i], scratch); });
   }
 
  private:
