@@ -48,10 +48,8 @@ Status check_loading(const std::string& file, const Loading& loading) {
 }
 
 void suit_style(Style style, Loading& loading) {
-  if (style == Style::kOpenscad && loading.curves != Curves::kSmooth) {
-    loading.curves = Curves::kOpenscad2021;
-    loading.outlines = true;
-  }
+  loading.curves = curves_in_style(style, loading.curves);
+  loading.outlines = loading.curves == Curves::kOpenscad2021;
 }
 
 ReadOptions read_options(const Loading& loading) {

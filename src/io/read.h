@@ -17,19 +17,9 @@
 #include "model/model.h"
 #include "model/statement_counts.h"
 #include "model/warnings.h"
-#include "shape/fragments.h"
+#include "whittle/options.h"
 
 namespace whittle {
-
-/// What is too much. A limit that is passed is an error that names it (why these:
-/// docs/decisions/0010-limits.md).
-struct ReadLimits {
-  size_t bytes = 500'000'000;  ///< of text; at most kMostTextBytes
-  size_t depth = 1'000'000;    ///< statements inside statements
-  size_t nodes = 20'000'000;   ///< statements, those dropped by `*` not counted
-  size_t values = 10'000'000;  ///< in one statement: numbers, strings, vectors, and names for them
-  size_t facets = 2'100'000;   ///< flat faces of all shapes together
-};
 
 /// How openscad evaluates a .scad file: what its command line says besides the files.
 struct FlattenOptions {

@@ -53,6 +53,7 @@ struct Renderer::State {
   Workers workers;
   std::vector<Appearance> looks;
   StageTimes times;
+  std::optional<Box> framed;  ///< made when a camera first asks
   // In the order in which they are made from one another.
   Scene scene;
   std::optional<CutFaces> cut_faces;  ///< made when a style first asks
@@ -145,12 +146,12 @@ Camera Renderer::camera(const ViewOptions& options, GimbalView* view) {
   State& s = *state_;
   const FileView& file = s.model.view;
   const Stopwatch watch;
-  Box framed;
-  if (frames_the_solid(options, file)) {
+  if (!s.framed && frames_the_solid(options, file)) {
     const SolidBounds solid = solid_bounds(s.scene, s.settings.threads);
-    framed = seen_box(s.model, solid.bounded ? solid.box : bounds(s.model).box);
+    s.framed = seen_box(s.model, solid.bounded ? solid.box : bounds(s.model).box);
   }
   s.times.frame = watch.milliseconds();
+  const Box framed = s.framed.value_or(Box{});
   if (view) *view = gimbal_view(options, file, framed);
   return make_camera(options, file, framed);
 }
