@@ -248,7 +248,7 @@ Solid Solid::make(const Csg& csg, const LoadOptions& options) {
                                   .most_facets = options.limits.facets,
                                   .threads = threads_of(options.threads),
                                   .read_file = nullptr,
-                                  .outlines = options.style == Style::kOpenscad,
+                                  .outlines = has_outlines(curves),
                                   .solid_box = tight_box},
                                  warnings));
   const bool is_complete = !warnings.unsupported();

@@ -18,4 +18,9 @@ constexpr Curves curves_in_style(Style style, Curves chosen) {
   return is_openscads ? Curves::kOpenscad2021 : chosen;
 }
 
+/// Whether drawings need their outlines for pictures with these curves.
+constexpr bool has_outlines(Curves in_style) {
+  return in_style == Curves::kOpenscad2021;
+}
+
 }  // namespace whittle

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "io/read.h"
+#include "host/read_file.h"
 #include "whittle/api.h"
 #include "whittle/output.h"
 #include "whittle/reading.h"
@@ -18,9 +18,7 @@ ReadOptions reading_of(const LoadOptions& o) {
           .polish = o.polish_matrices,
           .threads = threads_of(o.threads),
           .limits = o.limits,
-          .folder = std::nullopt,
-          .import_root = std::nullopt,
-          .outlines = o.style == Style::kOpenscad,
+          .outlines = has_outlines(curves_in_style(o.style, o.curves)),
           .solid_box = tight_box};
 }
 
@@ -35,7 +33,7 @@ int threads_of(int threads) {
 Solid::Solid(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
 Solid Solid::load(const std::string& path, const LoadOptions& options) {
-  Read read = value_of(read_file(path, reading_of(options)));
+  Read read = value_of(read_file(path, {.reading = reading_of(options)}));
   return Solid(std::make_shared<const State>(std::move(read.model), std::move(read.warnings),
                                              !read.unsupported, options.style));
 }
