@@ -8,10 +8,11 @@
 #include <utility>
 
 #include "console.h"
-#include "io/input_kinds.h"
+#include "host/input_kinds.h"
 #include "option_group.h"
 #include "progress.h"
 #include "statistics.h"
+#include "whittle/camera_text.h"
 #include "whittle/reading.h"
 
 namespace whittle {
@@ -54,20 +55,19 @@ void suit_style(Style style, Loading& loading) {
   }
 }
 
-ReadOptions read_options(const Loading& loading) {
+FileOptions read_options(const Loading& loading) {
   FlattenOptions flatten = loading.scad.flatten;
   // Programs may look at it, and openscad has a remark less.
   if (loading.view && gives_camera(*loading.view)) {
     flatten.arguments.push_back("--camera=" + camera_text(*loading.view));
   }
-  return {.curves = loading.curves,
-          .polish = loading.polish,
-          .threads = loading.threads ? *loading.threads : 0,
-          .limits = loading.limits,
-          .folder = std::nullopt,
+  return {.reading = {.curves = loading.curves,
+                      .polish = loading.polish,
+                      .threads = loading.threads ? *loading.threads : 0,
+                      .limits = loading.limits,
+                      .outlines = loading.outlines,
+                      .solid_box = tight_box},
           .import_root = loading.import_root,
-          .outlines = loading.outlines,
-          .solid_box = tight_box,
           .flatten = std::move(flatten)};
 }
 

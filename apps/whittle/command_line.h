@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "host/read_file.h"
 #include "image/shade.h"
-#include "io/read.h"
 #include "limits.h"
 #include "option_group.h"
 #include "scad_options.h"
@@ -34,7 +34,7 @@ void add_lenient_option(CLI::App& app, Loading& loading);
 Status check_loading(const std::string& file, const Loading& loading);
 /// What equals OpenSCAD's picture has OpenSCAD's facets, unless true curves were chosen.
 void suit_style(Style style, Loading& loading);
-ReadOptions read_options(const Loading& loading);
+FileOptions read_options(const Loading& loading);
 /// Says the warnings; or with `strict` and anything that is not supported, the error for that.
 Status say_warnings(const Read& read, const Loading& loading);
 /// Reads a file, shows the progress, and says its warnings.

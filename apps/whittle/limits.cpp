@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "io/input_file.h"
 #include "option_group.h"
 #include "statistics.h"
 

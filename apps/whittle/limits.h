@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "io/read.h"
+#include "csg/read_csg.h"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): CLI11 has named it
 class App;

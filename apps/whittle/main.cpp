@@ -14,8 +14,8 @@
 
 #include "commands.h"
 #include "console.h"
-#include "io/child_process.h"
-#include "io/pending_files.h"
+#include "host/child_process.h"
+#include "host/pending_files.h"
 #include "limits.h"
 #include "signals.h"
 

@@ -7,7 +7,7 @@
 
 #include "image/srgb.h"
 #include "support/instruction_sets.h"
-#include "trace/view.h"
+#include "trace/view_for_test.h"
 
 namespace whittle {
 namespace {
@@ -41,7 +41,7 @@ class FunctionTracer : public Tracer {
 
 /// Straight down on the plane z = 0, one unit a pixel, (0, 0) in the middle.
 Camera top_camera(int width, int height) {
-  ViewOptions options = *parse_camera("0,0,0,0,0,0,50");
+  ViewOptions options = view_of({0, 0, 0, 0, 0, 0, 50});
   options.orthographic = true;
   options.width = width;
   options.height = height;
@@ -159,7 +159,7 @@ TEST(Antialias, TheInsideOfABallIsNoEdgeAndItsOutlineIs) {
 }
 
 TEST(Antialias, APlaneSeenAtAGrazingAngleIsNoEdge) {
-  ViewOptions options = *parse_camera("0,0,0,85,0,30,50");
+  ViewOptions options = view_of({0, 0, 0, 85, 0, 30, 50});
   options.width = options.height = 64;
   for (const bool orthographic : {false, true}) {
     options.orthographic = orthographic;

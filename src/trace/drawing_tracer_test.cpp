@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "trace/view.h"
+#include "trace/view_for_test.h"
 
 namespace whittle {
 namespace {
@@ -40,10 +40,14 @@ TEST(DrawingTracer, SeesThePlaneAndNotTheSlab) {
   RectangleSlab slab;
   DrawingTracer tracer(slab, kRectangleBox, workers);
   EXPECT_STREQ(tracer.name(), "rectangle");
-  for (const char* text : {"1,1,0,55,0,25,20", "2,1,0,0,0,0,9", "2,1,0,140,10,25,9",
-                           "2,1,0,80,0,0,9", "1,1,-3,1.5,1.5,0", "2,1,0.5,3,2,0"}) {
+  for (const CameraNumbers& numbers : std::vector<CameraNumbers>{{1, 1, 0, 55, 0, 25, 20},
+                                                                 {2, 1, 0, 0, 0, 0, 9},
+                                                                 {2, 1, 0, 140, 10, 25, 9},
+                                                                 {2, 1, 0, 80, 0, 0, 9},
+                                                                 {1, 1, -3, 1.5, 1.5, 0},
+                                                                 {2, 1, 0.5, 3, 2, 0}}) {
     for (const bool orthographic : {false, true}) {
-      ViewOptions view = *parse_camera(text);
+      ViewOptions view = view_of(numbers);
       view.width = 40, view.height = 30, view.orthographic = orthographic;
       const Camera camera = make_camera(view, {}, kRectangleBox);
       const Frame frame = tracer.render(camera);
@@ -59,14 +63,17 @@ TEST(DrawingTracer, SeesThePlaneAndNotTheSlab) {
           if (edge < 1e-5) continue;
           const bool in = t > ray.t_min && p.x > 0 && p.x < 4 && p.y > 0 && p.y < 2;
           const Hit& hit = frame.at(x, y);
-          ASSERT_EQ(hit.id, !in ? 0u : p.x < 2 ? 7u : 8u) << text << ": " << x << ", " << y;
+          ASSERT_EQ(hit.id, !in       ? 0u
+                            : p.x < 2 ? 7u
+                                      : 8u)
+              << testing::PrintToString(numbers) << ": " << x << ", " << y;
           if (!in) continue;
           ++seen;
           EXPECT_FLOAT_EQ(hit.distance, float(t));
           EXPECT_EQ(hit.normal, (Vec3f{0, 0, ray.direction.z < 0 ? 1.0f : -1.0f}));
         }
       }
-      EXPECT_GT(seen, 4) << text;
+      EXPECT_GT(seen, 4) << testing::PrintToString(numbers);
     }
   }
 }
@@ -75,7 +82,7 @@ TEST(DrawingTracer, LooksAtAboutAPixelForEachRay) {
   const Workers workers(1);
   RectangleSlab slab;
   DrawingTracer tracer(slab, kRectangleBox, workers);
-  ViewOptions view = *parse_camera("2,1,0,0,0,0,5");
+  ViewOptions view = view_of({2, 1, 0, 0, 0, 0, 5});
   view.width = 64, view.height = 64;
   tracer.render(make_camera(view, {}, kRectangleBox));
   EXPECT_GT(slab.most_pixels, 500);
@@ -86,7 +93,7 @@ TEST(DrawingTracer, SeesNothingOfThePlaneFromInIt) {
   const Workers workers(1);
   RectangleSlab slab;
   DrawingTracer tracer(slab, kRectangleBox, workers);
-  ViewOptions view = *parse_camera("-5,1,0,2,1,0");
+  ViewOptions view = view_of({-5, 1, 0, 2, 1, 0});
   view.width = view.height = 9;
   for (const Hit& hit : tracer.render(make_camera(view, {}, kRectangleBox)).hits)
     EXPECT_FALSE(hit.hit());
@@ -96,7 +103,7 @@ TEST(DrawingTracer, SeesNothingOfThePlaneBehindTheEye) {
   const Workers workers(1);
   RectangleSlab slab;
   DrawingTracer tracer(slab, kRectangleBox, workers);
-  ViewOptions view = *parse_camera("2,1,3,2,1.1,9");
+  ViewOptions view = view_of({2, 1, 3, 2, 1.1, 9});
   view.width = view.height = 9;
   for (const Hit& hit : tracer.render(make_camera(view, {}, kRectangleBox)).hits)
     EXPECT_FALSE(hit.hit());

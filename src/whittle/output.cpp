@@ -13,10 +13,10 @@
 #include <memory>
 #include <system_error>
 
+#include "host/output_file.h"
 #include "image/exr.h"
 #include "image/passes.h"
 #include "image/png.h"
-#include "io/output_file.h"
 
 namespace whittle {
 namespace {

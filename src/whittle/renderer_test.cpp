@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "io/read.h"
+#include "csg/read_csg.h"
 #include "model/instances.h"
 
 namespace whittle {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/result.h"
+#include "host/read_file.h"
 #include "image/colorscheme.h"
-#include "io/read.h"
 #include "model/instances.h"
 #include "whittle/choices.h"
 #include "whittle/output.h"
@@ -57,8 +57,6 @@ ReadOptions reading_of(const LoadOptions& o) {
                      .nodes = o.most_nodes,
                      .values = o.most_values,
                      .facets = o.most_facets},
-          .folder = std::nullopt,
-          .import_root = std::nullopt,
           .outlines = o.outlines,
           .solid_box = tight_box};
 }
@@ -111,7 +109,7 @@ struct Solid::State {
 Solid::Solid(std::shared_ptr<const State> state) : state_(std::move(state)) {}
 
 Solid Solid::load(const std::string& path, const LoadOptions& options) {
-  State state{value_of(read_file(path, reading_of(options))), {}};
+  State state{value_of(read_file(path, {.reading = reading_of(options)})), {}};
   state.bounds = whittle::bounds(state.read.model);
   return Solid(std::make_shared<const State>(std::move(state)));
 }

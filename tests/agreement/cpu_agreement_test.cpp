@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "agreement/cpu_subject.h"
-#include "io/read.h"
+#include "host/read_file.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"
 #include "support/zoo.h"

@@ -12,7 +12,7 @@
 #include <filesystem>
 
 #include "agreement/raster_subject.h"
-#include "io/read.h"
+#include "host/read_file.h"
 #include "model/instances.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"

@@ -6,6 +6,7 @@
 #include <ostream>
 #include <string>
 
+#include "host/read_file.h"
 #include "support/agreement.h"
 #include "support/read_text.h"
 #include "trace/oracle/oracle.h"
