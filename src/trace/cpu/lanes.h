@@ -7,28 +7,12 @@
 #include <vector>
 
 #include "base/uninitialized.h"
+#include "kernels/constants.h"
 #include "subdivide/refine.h"
 #include "trace/cpu/cpu.h"
 #include "trace/cpu/solve.h"
 
 namespace whittle {
-
-/// Which arithmetic a half-space gets along a ray: by itself alone, so that it is one polynomial in
-/// every cell.
-enum class AlongKind : uint64_t {
-  kPlane,
-  kSphere,
-  kSmallSphere,
-  kDiagonal,  ///< neither off nor b: ellipsoids and cylinders along the axes
-  kQuadric,
-  kSmallQuadric,
-  kCone,  ///< about its tip
-  kSmallCone
-};
-
-inline constexpr bool is_cone(AlongKind kind) {
-  return kind >= AlongKind::kCone;
-}
 
 /// A half-space as the lanes read it, a cache line each. Quadrics have the rest in the scene.
 struct alignas(64) LaneHalfSpace {

@@ -25,8 +25,9 @@ struct Change {
   bool turned;          ///< the solid is on the other side of it than the half-space
 };
 
-/// A half-space on the way from t0 to t1 of several rays, one bit a ray. One word: what is written
-/// in parts and read as a whole is waited for.
+/// How a half-space's sign behaves on the way from t0 to t1 of several rays, one bit a ray. It is
+/// one word because it is written and read as a whole: a load wider than the stores before it would
+/// wait for them (a store-forwarding stall).
 class LaneSigns {
  public:
   LaneSigns() = default;
@@ -54,6 +55,7 @@ inline bool literal_value(const LeafLiteral& literal, bool is_inside) {
   return is_inside != bool(literal.literal & 1);
 }
 
+/// All leaves it is given must outlive it: it remembers some by their address.
 class LeafSolver {
  public:
   explicit LeafSolver(const Scene& scene);
@@ -115,7 +117,8 @@ class LeafSolver {
   const Face& owner(const Leaf& leaf, std::span<const LeafLiteral> literals, Vec3 point,
                     std::span<const Crossing> group) const;
 
-  /// What owner_of() has found out; leaves are asked the same again and again.
+  /// What owner_of() has found out; leaves are asked the same again and again. A leaf's address
+  /// names it: leaves never move (cells.h).
   struct KnownOwner {
     const Leaf* leaf = nullptr;
     uint64_t state = 0;

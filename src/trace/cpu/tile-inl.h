@@ -21,11 +21,6 @@ namespace whittle {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// An eye this close to a surface stands on it, this close to the eye a ray still does; shares of
-/// the region's longest edge, above what rounding does.
-constexpr double kOnSurface = 2e-14;
-constexpr double kAtEye = 1e-13;
-
 /// No inverse of a direction is larger, so that a product with it is a number (or infinite) always.
 constexpr double kMostInverse = 1e300;
 

@@ -179,7 +179,7 @@ Status CellSupply::run(const std::vector<Job>& jobs, const Wanted& wanted, CellB
     batch.visible.insert(batch.visible.end(), parts[i].visible.begin(), parts[i].visible.end());
     if (ends) ends->push_back(batch.visible.size());
   }
-  cell_count_ += uint32_t(flat_.cells.size() / kCellWords);
+  cell_count_ += uint32_t(flat_.cells.size() / shader::kCellWords);
   word_count_ += uint32_t(flat_.words.size());
   batch.cells.insert(batch.cells.end(), flat_.cells.begin(), flat_.cells.end());
   batch.words.insert(batch.words.end(), flat_.words.begin(), flat_.words.end());

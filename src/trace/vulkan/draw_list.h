@@ -2,6 +2,7 @@
 // those that are probably seen, and of the others those that the first did not hide.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -55,7 +56,8 @@ class DrawList {
     uint32_t first, count;  ///< instances to test
     uint32_t to;            ///< where those go that are not hidden
   };
-  static_assert(sizeof(Command) == 32);
+  static_assert(offsetof(Command, first) == 20 && offsetof(Command, count) == 24 &&
+                offsetof(Command, to) == 28 && sizeof(Command) == 32);
 
   void write_commands();
   /// Where a command finds its instances.

@@ -18,7 +18,7 @@ namespace {
 
 /// What shaders/resolve.comp writes where it is in doubt.
 bool is_doubtful(const Hit& hit) {
-  return hit.id == UINT32_MAX;
+  return hit.id == shader::kDoubtfulId;
 }
 
 /// Brings together the supply of cells, their place on the device, and the drawer of tiles.
@@ -202,7 +202,7 @@ class RasterTracerImpl final : public RasterTracer {
       status_ = Done{};
       if (Status done = send(batch); !done) return done;
       part.is_last = batch->is_last;
-      sent += batch->cells.size() / kCellWords;
+      sent += batch->cells.size() / shader::kCellWords;
       if (Status done = drawer_.draw(view, batch->visible, sent, nullptr, stats_, part); !done)
         return done;
       if (part.is_first) stats_.first_ms = clock_.milliseconds();
