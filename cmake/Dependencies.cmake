@@ -1,7 +1,14 @@
 # Every outside library, its Debian package, and why it is here.
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)             # libtbb-dev: threads over tiles and cells
-find_package(hwy REQUIRED)             # libhwy-dev: vector lanes, chosen at run time
+# libhwy-dev: vector lanes. Headers alone: src/base/instruction_set.h says why. Only what checks them
+# is in its library.
+find_package(hwy REQUIRED)
+if(WHITTLE_SANITIZE)
+  link_libraries(hwy::hwy)
+else()
+  add_compile_definitions(HWY_IS_DEBUG_BUILD=0)
+endif()
 find_package(CLI11 REQUIRED)           # libcli11-dev: the command line
 find_package(fmt REQUIRED)             # libfmt-dev: text
 find_package(nlohmann_json REQUIRED)   # nlohmann-json3-dev: machine-readable output

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "base/instruction_set.h"
+
 // This file is compiled once for every instruction set; see foreach_target.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "trace/cpu/lanes.cpp"
@@ -477,25 +479,25 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace whittle {
 
-HWY_EXPORT(trace_positions);
-HWY_EXPORT(trace_rays);
-HWY_EXPORT(retrace_positions);
+WHITTLE_EXPORT(trace_positions);
+WHITTLE_EXPORT(trace_rays);
+WHITTLE_EXPORT(retrace_positions);
 
 void trace_lanes(const LaneScene& scene, const Camera& camera,
                  std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
                  LaneScratch& scratch, TileRecord* record) {
-  HWY_DYNAMIC_DISPATCH(trace_positions)(scene, camera, positions, places, hits, scratch, record);
+  WHITTLE_DISPATCH(trace_positions)(scene, camera, positions, places, hits, scratch, record);
 }
 
 void trace_lanes(const LaneScene& scene, std::span<const Ray> rays, Hit* hits,
                  LaneScratch& scratch) {
-  HWY_DYNAMIC_DISPATCH(trace_rays)(scene, rays, hits, scratch);
+  WHITTLE_DISPATCH(trace_rays)(scene, rays, hits, scratch);
 }
 
 void retrace_lanes(const LaneScene& scene, const Camera& camera,
                    std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
                    LaneScratch& scratch, const TileRecord& record) {
-  HWY_DYNAMIC_DISPATCH(retrace_positions)(scene, camera, positions, places, hits, scratch, record);
+  WHITTLE_DISPATCH(retrace_positions)(scene, camera, positions, places, hits, scratch, record);
 }
 
 }  // namespace whittle
