@@ -10,9 +10,6 @@
 namespace whittle {
 namespace {
 
-/// Formulas that would have no more literals than this get all their primitives expanded.
-constexpr uint32_t kExpandAll = 64;
-
 /// A cell of at least so many operands is split into parts of about kWantedOperands each at once.
 constexpr size_t kWide = 4096, kWantedOperands = 128;
 constexpr int kMostSplitsAtOnce = 12;
@@ -52,10 +49,6 @@ constexpr std::chrono::microseconds kNap{20};
 double half_area(const Box& box) {
   const Vec3 size = box.size();
   return size.x * size.y + size.y * size.z + size.z * size.x;
-}
-
-Expand expand_of(uint32_t literals) {
-  return literals <= kExpandAll ? Expand::kUnits : Expand::kLarge;
 }
 
 void wait_a_little(int round) {
