@@ -80,9 +80,15 @@ struct Leaf {
 
 struct Cell;
 
-/// What a cell is and where to go on from it, in one word.
+/// What a cell is and where to go on from it, in one word: the kind in bits 0 to 3, the axis in 4
+/// and 5, then two bits that are not part of what the cell is, and from bit 8 on the target.
 class CellLink {
  public:
+  /// Of what a cell is across the threshold (open_cell.h): it is that if it is small.
+  static constexpr uint64_t kIfSmall = 1u << 6;
+  /// Of an open cell: a thread is at it (cell_claim.h).
+  static constexpr uint64_t kBusy = 1u << 7;
+
   CellLink() = default;
   CellLink(CellKind kind, const void* target, int axis = 0)
       : bits_(uint64_t(reinterpret_cast<uintptr_t>(target)) << 8 | uint64_t(axis) << 4 |
