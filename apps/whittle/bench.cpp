@@ -144,7 +144,7 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   for (int i = 0; i < a.repeat; ++i) {
     read.reset();
     const Stopwatch watch;
-    Result<Read> again = read_file(file, read_options(a.loading));
+    Result<Read> again = with_limit_option(read_file(file, read_options(a.loading)));
     parse.push_back(watch.milliseconds());
     if (!again) return again.error();
     read = *std::move(again);

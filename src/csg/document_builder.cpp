@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/limit_hint.h"
 #include "csg/leaves.h"
 #include "csg/maps.h"
 #include "csg/operations.h"
@@ -48,10 +49,8 @@ std::optional<Mistake> DocumentBuilder::add(const Statement& statement, std::str
   std::vector<Node>& nodes = document_.model.nodes;
   // The first node is no statement but the file.
   if (nodes.size() > std::min<size_t>(options_.limits.nodes, kNone - 2)) {
-    return Mistake{
-        statement.where,
-        fmt::format("there are more statements than the limit of {}; --limit nodes=N raises it",
-                    options_.limits.nodes)};
+    return Mistake{statement.where, fmt::format("there are more statements than the limit of {}{}",
+                                                options_.limits.nodes, limit_hint("nodes"))};
   }
   open.node = static_cast<uint32_t>(nodes.size());
   open.is_root = modifiers.root;

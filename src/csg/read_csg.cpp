@@ -34,8 +34,12 @@ Result<Read> read_csg(std::string_view text, const std::string& file_name,
     refusal =
         message_at(file_name, unsupported->where, fmt::format("error: {}", unsupported->message));
   }
-  return Read{std::move(*model), std::move(counts), warnings.take(), unsupported,
-              std::move(refusal)};
+  return Read{.model = std::move(*model),
+              .counts = std::move(counts),
+              .warnings = warnings.take(),
+              .unsupported = unsupported,
+              .refusal = std::move(refusal),
+              .missing_file = warnings.missing_file()};
 }
 
 }  // namespace whittle

@@ -55,6 +55,9 @@ struct Read {
   std::optional<Unsupported> unsupported;
   /// That as a full message, `file:line:column: error: ...`; empty if there is nothing.
   std::string refusal;
+  /// Likewise the first file that it names and that is not there. OpenSCAD shows nothing for such a
+  /// file and goes on, so it does not count as unsupported.
+  std::string missing_file{};
   /// Of read_file() only: all files that were read for it, the one asked for first, unless it is
   /// standard input, then those that it names, in the order in which they were first asked for.
   std::vector<std::string> files{};

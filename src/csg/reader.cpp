@@ -5,6 +5,7 @@
 //
 // The stack of open statements is a vector, so depth costs memory and nothing else.
 #include "csg/reader.h"
+#include "base/limit_hint.h"
 
 #include <fmt/format.h>
 
@@ -143,9 +144,8 @@ void CsgReader::close_braces() {
 
 bool CsgReader::admit_depth(SourceLocation where) {
   if (stack_.size() <= options_.limits.depth) return true;
-  return lexer_.fail(where, fmt::format("statements are nested deeper than the limit of {}; "
-                                        "--limit depth=N raises it",
-                                        options_.limits.depth));
+  return lexer_.fail(where, fmt::format("statements are nested deeper than the limit of {}{}",
+                                        options_.limits.depth, limit_hint("depth")));
 }
 
 Modifiers CsgReader::read_modifiers() {

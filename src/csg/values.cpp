@@ -1,4 +1,5 @@
 #include "csg/values.h"
+#include "base/limit_hint.h"
 
 #include <fmt/format.h>
 
@@ -36,9 +37,8 @@ std::optional<Value> built_in(std::string_view name) {
 }
 
 bool too_many_values(CsgLexer& lexer, SourceLocation where, size_t limit) {
-  return lexer.fail(where, fmt::format("the statement has more values than the limit of {}; "
-                                       "--limit values=N raises it",
-                                       limit));
+  return lexer.fail(where, fmt::format("the statement has more values than the limit of {}{}",
+                                       limit, limit_hint("values")));
 }
 
 /// Adds a value of that kind, to be filled in; null if there are too many, which is a mistake then.

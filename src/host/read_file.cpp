@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -30,7 +31,8 @@ template <class Rewrite>
 Result<Read> rewrite(Result<Read> read, Rewrite&& in_other_words) {
   if (!read) return Error{read.error().kind, in_other_words(read.error().message)};
   for (std::string& warning : read->warnings) warning = in_other_words(warning);
-  if (!read->refusal.empty()) read->refusal = in_other_words(read->refusal);
+  for (std::string* message : {&read->refusal, &read->missing_file})
+    if (!message->empty()) *message = in_other_words(*message);
   return read;
 }
 
@@ -68,12 +70,23 @@ Result<Read> read_scad(const std::string& path, const FileOptions& options) {
   return read;
 }
 
+/// As many as tell what a file is.
+std::string first_bytes(const std::string& path) {
+  std::string bytes(16, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(bytes.data(), std::streamsize(bytes.size()));
+  bytes.resize(size_t(file.gcount()));
+  return bytes;
+}
+
 Result<Read> read_shape(const std::string& path, const FileOptions& options) {
   // That it is not there is an error here, while what import() misses is a warning.
   if (::access(path.c_str(), R_OK) != 0) {
     return Error{ErrorKind::kInput, fmt::format("{}: error: cannot be read: {}", path,
                                                 std::generic_category().message(errno))};
   }
+  if (const std::optional<std::string> compressed = describe_compressed(first_bytes(path)))
+    return Error{ErrorKind::kInput, fmt::format("{}: error: {}", path, *compressed)};
   const std::string name = fs::path(path).filename().string();
   Result<Read> read = read_text_of(path, fmt::format("import({});", quoted_string(name)), options);
   // The place is in a text that is not there, and so is the name of the file once more.

@@ -260,7 +260,7 @@ Result<Scene> lower(const Model& model) {
   scene.region = {region.lo - scene.origin, region.hi - scene.origin};
 
   const Affine local_from_world = translation(-scene.origin);
-  const double least_tolerance = together(region);
+  const double least_tolerance = ray_tolerance(region);
   FaceMerger merger(scene.region, scene.tolerance, least_tolerance);
   std::vector<uint32_t> unit_of_node(model.nodes.size(), 0);
   LoweredPrimitive lowered;

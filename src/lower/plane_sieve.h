@@ -1,5 +1,5 @@
-// Tells planes that stand alone from those that have others near them, which are few in most
-// models: of a million facets of a mesh hardly one comes near another.
+// Separates planes that stand alone from those that have others near them. In most models nearly
+// all stand alone: of a million facets of a mesh hardly one comes near another.
 #pragma once
 
 #include <cmath>

@@ -18,8 +18,6 @@ namespace {
 /// more polytopes than kMostTerms.
 constexpr uint32_t kFewLiterals = 32;
 constexpr size_t kMostTerms = 64;
-/// Formulas that would have no more literals than this get all their primitives expanded.
-constexpr uint32_t kExpandAll = 64;
 /// Tokens that one search may classify: a number, and some passes over the formula.
 constexpr size_t kMostTokens = size_t(1) << 22, kMostPasses = 32;
 /// Where a cell is split: not in the middle, where symmetrical models have faces, which then are in
@@ -101,8 +99,7 @@ class Search {
 
   /// Simplifies a formula for a box. What is all solid is noted.
   Truth simplify(const Formula& around, const Box& box, Formula& out) {
-    const Expand expand =
-        expanded_size(scene_, around) <= kExpandAll ? Expand::kUnits : Expand::kLarge;
+    const Expand expand = expand_of(expanded_size(scene_, around));
     const Truth truth = simplifier_.simplify(around, box, expand, out);
     if (truth == Truth::kTrue) best_ = std::max(best_, reach_of(box));
     return truth;
