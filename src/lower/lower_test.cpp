@@ -93,7 +93,7 @@ TEST(HalfSpaceTable, NearlyEqualPlanesDoNotChain) {
     table.add({{0, 0, i * 0.75 * tolerance}, {{}, {}, {0, 0, 0.5}, 0}, SurfaceKind::kPlane}, reach,
               {});
   // Each representative takes in the next one and no more.
-  EXPECT_EQ(table.take().size(), 50u);
+  EXPECT_EQ(table.size(), 50u);
 }
 
 TEST(HalfSpaceTable, FindsEqualsAcrossBucketBorders) {
