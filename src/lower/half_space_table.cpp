@@ -50,8 +50,7 @@ bool is_on_both_nappes(const HalfSpace& h, std::span<const Vec3> outline) {
 HalfSpaceTable::HalfSpaceTable(double radius, double tolerance)
     : radius_(radius), step_(tolerance > 0 ? 4 * tolerance : 1) {}
 
-HalfSpaceTable::Fingerprint HalfSpaceTable::place_of(const HalfSpace& h,
-                                                     const Reach& reach) const {
+HalfSpaceTable::Fingerprint HalfSpaceTable::place_of(const HalfSpace& h, const Reach& reach) const {
   Fingerprint r{fingerprint_point(h, reach.ball_reach > 0, radius_),
                 fingerprint_slack(reach, radius_)};
   for (double& x : r.point) {

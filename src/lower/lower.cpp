@@ -21,9 +21,9 @@ bool is_large(const Model& model) {
 }
 
 /// Once faces have their half-spaces: how far the triangles of boundaries are from them.
-void measure_slacks(Scene& scene, double least_tolerance) {
+void measure_slacks(Scene& scene, double least_tolerance, const Workers* workers) {
   for (Boundary& boundary : scene.boundaries)
-    boundary.measure_slack(least_tolerance, scene.region, [&](uint32_t face, Vec3 p) {
+    boundary.measure_slack(least_tolerance, scene.region, workers, [&](uint32_t face, Vec3 p) {
       const HalfSpace& h = scene.half_spaces[scene.faces[face].literal >> 1];
       return std::fabs(Kernels<double>::quadric_value(h.f, p - h.center));
     });
@@ -157,7 +157,7 @@ Result<Scene> lower(const Model& model, const Workers* workers) {
   const double least_tolerance = together(region);
   made.make(scene, least_tolerance);
   merge_faces(model, made, least_tolerance, workers, scene);
-  measure_slacks(scene, least_tolerance);
+  measure_slacks(scene, least_tolerance, workers);
   if (!FormulaBuilder(model, scene).build()) return too_large();
   return scene;
 }

@@ -30,8 +30,7 @@ class Outlines {
   bool test(uint32_t face, const Test& test) {
     const auto unit = std::ranges::lower_bound(units_, scene_.faces[face].unit);
     const UnitMaker::Placed& placed = placed_[size_t(unit - units_.begin())];
-    return test(
-        wall_outline(model_.primitives[placed.primitive].shape, placed.local_from_object));
+    return test(wall_outline(model_.primitives[placed.primitive].shape, placed.local_from_object));
   }
 
  private:
@@ -109,7 +108,11 @@ void grow(Unit& unit, uint32_t first, std::span<const uint32_t> faces, std::span
 
 void merge_faces(const Model& model, UnitMaker& made, double least_tolerance,
                  const Workers* workers, Scene& scene) {
-  const std::vector<uint32_t> faces = made.sieve().with_others(scene.half_spaces, workers);
+  const auto reach_of = [&](uint32_t face) -> const Reach& {
+    return made.reach(scene.faces[face].unit);
+  };
+  const std::vector<uint32_t> faces =
+      made.sieve().with_others(scene.half_spaces, reach_of, workers);
   const std::vector<Found> found = merge_some(model, made, least_tolerance, scene, faces);
   std::vector<uint32_t> gone;
   for (size_t i = 0; i < faces.size(); ++i) {
@@ -133,8 +136,7 @@ void merge_faces(const Model& model, UnitMaker& made, double least_tolerance,
     }
   });
   for (size_t i = 0; i < faces.size(); ++i)
-    scene.faces[faces[i]].literal =
-        2 * number_of(found[i].literal >> 1) + (found[i].literal & 1);
+    scene.faces[faces[i]].literal = 2 * number_of(found[i].literal >> 1) + (found[i].literal & 1);
 }
 
 }  // namespace whittle

@@ -103,10 +103,10 @@ void UnitMaker::add_facets(const Surface& surface, Scene& scene, const Workers* 
   const std::vector<Plane>& facets = surface.mesh->facets;
   for_parts(workers, facets.size(), kFacetsEach, [&](size_t first, size_t last, size_t) {
     for (size_t i = first; i < last; ++i)
-      add_face(scene.units[surface.unit].first_face + uint32_t(i), surface.unit,
-               facet_half_space(facets[i], surface.middle, surface.local_from_mesh,
-                                mesh_from_local),
-               scene);
+      add_face(
+          scene.units[surface.unit].first_face + uint32_t(i), surface.unit,
+          facet_half_space(facets[i], surface.middle, surface.local_from_mesh, mesh_from_local),
+          scene);
   });
 }
 
@@ -116,7 +116,8 @@ void UnitMaker::make_units(size_t range, double least_tolerance, Scene& scene, R
   LoweredPrimitive lowered;
   InstanceWalk walk(model_, ranges_[range]);
   uint32_t number = ranges_[range].first;
-  for (const Instance* next = walk.next(); next != nullptr; next = walk.next(), ++number) {
+  for (const Instance* next = walk.next_place(); next != nullptr;
+       next = walk.next_place(), ++number) {
     Unit& unit = scene.units[number];
     unit.first_face = uint32_t(before.faces);
     if (unit.face_count == 0) {
@@ -229,8 +230,8 @@ std::vector<UnitMaker::Placed> UnitMaker::placed(const Scene& scene,
     size_t i = size_t(std::ranges::lower_bound(units, number) - units.begin());
     InstanceWalk walk(model_, ranges_[range]);
     for (; i < units.size() && units[i] < ranges_[range].first + ranges_[range].count; ++i) {
-      const Instance* instance = walk.next();
-      for (; number < units[i]; ++number) instance = walk.next();
+      const Instance* instance = walk.next_place();
+      for (; number < units[i]; ++number) instance = walk.next_place();
       ++number;
       found[i] = {instance->primitive, local_from_world * instance->world_from_object};
     }

@@ -83,6 +83,15 @@ InstanceWalk::InstanceWalk(const Model& model, const InstanceRange& range)
 }
 
 const Instance* InstanceWalk::next() {
+  if (next_place() == nullptr) return nullptr;
+  const Shape& shape = model_.primitives[instance_.primitive].shape;
+  const Affine& map = instance_.world_from_object;
+  instance_.empty =
+      is_empty(shape) || !map.is_finite() || is_singular(map) || overflows(shape, map);
+  return &instance_;
+}
+
+const Instance* InstanceWalk::next_place() {
   while (at_ < end_) {
     const uint32_t i = at_++;
     const Node& node = model_.nodes[i];
@@ -95,10 +104,7 @@ const Instance* InstanceWalk::next() {
     if (node.kind == NodeKind::kTransform) {
       scopes_.push_back({node.end, world_from_parent * model_.transforms[node.payload]});
     } else if (node.kind == NodeKind::kPrimitive) {
-      const Shape& shape = model_.primitives[node.payload].shape;
-      const bool empty = is_empty(shape) || !world_from_parent.is_finite() ||
-                         is_singular(world_from_parent) || overflows(shape, world_from_parent);
-      instance_ = {i, node.payload, empty, world_from_parent};
+      instance_ = {i, node.payload, false, world_from_parent};
       return &instance_;
     }
   }

@@ -42,6 +42,8 @@ class InstanceWalk {
 
   /// The next one; null after the last. What it points to changes with the next call.
   const Instance* next();
+  /// The same, but it is not looked at whether it is empty.
+  const Instance* next_place();
 
  private:
   struct Scope {
