@@ -12,22 +12,11 @@
 #include <span>
 #include <vector>
 
-#include "lower/plane_sieve.h"
+#include "lower/fingerprint.h"
 #include "lower/point_index.h"
 #include "lower/scene.h"
 
 namespace whittle {
-
-/// What of a primitive decides which surfaces its own are one with. Local coordinates.
-struct Reach {
-  Vec3 center;  ///< the primitive lies in this ball
-  double radius = 0;
-  double width = 0;       ///< see Extent
-  double tolerance = 0;   ///< see own_tolerance()
-  double ball_reach = 0;  ///< of the outline of a sphere's image from its middle; 0 for the rest
-
-  bool operator==(const Reach&) const = default;
-};
 
 /// Points that stand for a curved surface, some at a time: calls the test with them until it fails.
 /// True if it never does.
@@ -50,20 +39,19 @@ class HalfSpaceTable {
   /// added with it.
   bool is_crowded(uint32_t number) const { return crowded_[number]; }
 
-  std::vector<HalfSpace> take() { return std::move(half_spaces_); }
+  const HalfSpace& operator[](uint32_t number) const { return half_spaces_[number]; }
+  size_t size() const { return half_spaces_.size(); }
 
  private:
   bool same_plane(uint32_t known, const HalfSpace& h, const Reach& reach, bool complement) const;
   bool same_curve(uint32_t known, const Reach& reach, const Outline& outline) const;
 
-  /// A point that stands for the surface. Equal surfaces have points close to each other.
+  /// Where a curved surface stands, and how far an equal one can be; in the units of the indices.
   struct Fingerprint {
     PointIndex::Point point;
-    double slack;  ///< how far away an equal surface's point can be; proportional to the tolerance
+    double slack = 0;
   };
-  Fingerprint wall_fingerprint(const HalfSpace& h, const Reach& reach) const;
-  Fingerprint ball_fingerprint(const HalfSpace& h, const Reach& reach) const;
-  Fingerprint fingerprint(const HalfSpace& h, const Reach& reach) const;
+  Fingerprint place_of(const HalfSpace& h, const Reach& reach) const;
 
   /// Half-spaces in two indices. One is lonely if no other was near it when it was added; any place
   /// has few of these. All others are crowded.
@@ -81,12 +69,6 @@ class HalfSpaceTable {
   void visit_planes(PointIndex Shelves::*shelf, const HalfSpace& h, const Reach& reach,
                     bool complement, const Visit& visit) const;
   void put(const HalfSpace& h, uint32_t number, bool is_ball, const Fingerprint& at);
-  void put_plane(uint32_t number);
-  bool stands_alone(const HalfSpace& h, const Reach& reach);
-  PlaneSieve* sieve_for(double offset_slack, double normal_slack);
-  void add_to_sieves(uint32_t number);
-  PlanePlace place_of(const HalfSpace& h) const;
-  uint32_t add_new(const HalfSpace& h, double tolerance);
   uint32_t group_of(Vec3 normal);
   /// Calls visit(group) for all whose normal is within `parting` of n in every coordinate, until it
   /// returns false.
@@ -111,11 +93,6 @@ class HalfSpaceTable {
   static constexpr std::array<double, 3> kNormalCellsPerUnit = {1 << 6, 1 << 10, 1 << 16};
   std::array<PointIndex, kNormalCellsPerUnit.size()> groups_;
   Shelves planes_;
-  /// Every plane is offered to every sieve that exists so far. What a sieve has given up, or does
-  /// not hold, is in the indices above.
-  std::vector<PlaneSieve> sieves_;
-  std::vector<bool> is_put_;  ///< one a half-space
-  bool puts_all_ = false;     ///< some plane had a slack for which every sieve is too fine
 };
 
 }  // namespace whittle

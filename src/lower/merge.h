@@ -25,15 +25,14 @@ class FaceMerger {
   /// A face of a primitive. Returns a literal of its surface as it was written.
   Literal add(const HalfSpace& face, const Reach& primitive, const Outline& outline);
 
+  /// For every surface as it was written:
   struct Merged {
-    std::vector<HalfSpace> half_spaces;
-    std::vector<Literal> literals;  ///< for every surface as it was written: what it is now,
+    std::vector<Literal> literals;  ///< what it lies on now, itself or an earlier one,
     std::vector<float> moved;       ///< and by how much that may differ, where its primitives are
   };
   /// The outline of all faces that were written on one curved surface, see Outline.
   using Outlines = std::function<Outline(uint32_t surface)>;
-  /// What has been added is gone after this.
-  Merged merge(const Outlines& outlines);
+  Merged merge(const Outlines& outlines) const;
 
  private:
   /// Faces on one surface as it was written.

@@ -59,6 +59,8 @@ concept CompleteShape = requires(const S& shape, const Affine& map, std::span<co
   { shape.facet_count() } -> std::same_as<uint64_t>;
   /// Its flat faces as planes with outward normals.
   { shape.facet_planes() } -> std::same_as<std::vector<Plane>>;
+  /// How many those are.
+  { shape.plane_count() } -> std::same_as<size_t>;
   /// Points that stand for its surface: the corners of a flat one, points on the wall of a
   /// curved one; none if it is unbounded.
   { shape.outline() } -> std::same_as<std::vector<Vec3>>;
@@ -72,7 +74,7 @@ concept CompleteShape = requires(const S& shape, const Affine& map, std::span<co
   /// A box around it, cheap rather than tight; of what is unbounded the points of its surface
   /// that are nearest to the origin.
   { shape.finite_box(map) } -> std::same_as<Box>;
-  /// Its outline() and facet_planes() are at hand.
+  /// Its outline() and facet_planes() are at hand. That of a true ball may be left out.
   { shape.extent(outline, planes, map) } -> std::same_as<Extent>;
 };
 
