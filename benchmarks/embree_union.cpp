@@ -25,8 +25,8 @@
 
 #include "base/timing.h"
 #include "base/workers.h"
-#include "io/generate.h"
-#include "io/read.h"
+#include "csg/read_csg.h"
+#include "generate/generate.h"
 #include "model/instances.h"
 #include "whittle/renderer.h"
 

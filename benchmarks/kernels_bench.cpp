@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "csg/read_csg.h"
+#include "generate/generate.h"
 #include "image/shade.h"
-#include "io/generate.h"
-#include "io/read.h"
 #include "lower/lower.h"
 #include "subdivide/simplify.h"
 #include "whittle/renderer.h"

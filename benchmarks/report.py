@@ -5,8 +5,12 @@ import glob
 import json
 import os
 import subprocess
+import sys
 
-from common import RESULTS, fail
+from common import RESULTS, ROOT, fail
+
+sys.path.append(os.path.join(ROOT, "scripts"))
+from wrap_docs import wrap  # noqa: E402
 
 
 def latest(kind, folder=RESULTS):
@@ -67,6 +71,7 @@ def plot(folder, name, settings, data, curves):
 
 def write_or_check(path, text, check):
     """Writes a page whole or not at all; with `check`, fails if it is not what stands there."""
+    text = wrap(text)
     if check:
         with open(path) as file:
             if file.read() != text:

@@ -7,12 +7,14 @@ function(whittle_module name)
   if(arg_SOURCES)
     add_library(whittle_${name} STATIC ${arg_SOURCES})
     target_include_directories(whittle_${name}
-                               PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
+                               PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+                                      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
     target_link_libraries(whittle_${name} PUBLIC ${arg_DEPENDS})
   else()
     add_library(whittle_${name} INTERFACE)
     target_include_directories(whittle_${name}
-                               INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
+                               INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+                                         $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
     target_link_libraries(whittle_${name} INTERFACE ${arg_DEPENDS})
   endif()
   set_property(GLOBAL APPEND PROPERTY WHITTLE_MODULES whittle_${name})  # for Install.cmake

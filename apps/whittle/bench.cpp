@@ -67,7 +67,7 @@ struct RasterTimes {
 
   /// All cells have just been made.
   Status measure_in_turn(Renderer& renderer, const Camera& camera) {
-    auto* const raster = dynamic_cast<RasterTracer*>(&renderer.tracer());
+    RasterTracer* const raster = renderer.raster_tracer();
     if (raster == nullptr) return Done{};
     const StageTimes& times = renderer.times();
     if (const Result<Frame> frame = renderer.trace(camera); !frame) return frame.error();
@@ -84,7 +84,7 @@ struct RasterTimes {
 
   /// A picture has just been made of cells that were not there: it took so long.
   void note_stream(Renderer& renderer, double milliseconds) {
-    auto* const raster = dynamic_cast<RasterTracer*>(&renderer.tracer());
+    RasterTracer* const raster = renderer.raster_tracer();
     if (raster == nullptr) return;
     stream.push_back(milliseconds);
     streamed = raster->stats();
@@ -144,7 +144,7 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   for (int i = 0; i < a.repeat; ++i) {
     read.reset();
     const Stopwatch watch;
-    Result<Read> again = read_file(file, read_options(a.loading));
+    Result<Read> again = with_limit_option(read_file(file, read_options(a.loading)));
     parse.push_back(watch.milliseconds());
     if (!again) return again.error();
     read = *std::move(again);
@@ -161,7 +161,7 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   }
   const Camera camera = renderer->camera(a.view);
   if (Status prepared = renderer->prepare(camera); !prepared) return prepared.error();
-  if (dynamic_cast<RasterTracer*>(&renderer->tracer()) != nullptr) {
+  if (renderer->raster_tracer() != nullptr) {
     // Shaders are compiled when they are first used.
     if (const Result<Frame> first = renderer->trace(camera); !first) return first.error();
   }
@@ -189,7 +189,7 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
     if (!picture) return picture.error();
     cold.push_back(watch.milliseconds());
     shade.push_back(renderer->times().shade);
-    stats = renderer->trace_stats();
+    if (const CpuTracer* const cpu = renderer->cpu_tracer()) stats = cpu->stats();
     looked_at = statistics();
     // Again, now that all the cells that it needs are there.
     if (const Result<Frame> again = renderer->trace(camera); !again) return again.error();
@@ -232,7 +232,7 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
   } else if (scene != nullptr) {
     json["paper_ms"] = {{"S", median(subdivide)}, {"T", median(trace)}, {"cold", median(cold)}};
   }
-  if (auto* cpu = dynamic_cast<CpuTracer*>(&renderer->tracer())) {
+  if (CpuTracer* const cpu = renderer->cpu_tracer()) {
     // What is left of a frame when no ray has to look for its leaf.
     cpu->record(camera);
     std::vector<double> replay;

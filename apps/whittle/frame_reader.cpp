@@ -5,10 +5,11 @@
 #include <utility>
 
 #include "base/result.h"
+#include "limits.h"
 
 namespace whittle {
 
-FrameReader::FrameReader(std::string file, ReadOptions options, std::vector<double> times)
+FrameReader::FrameReader(std::string file, FileOptions options, std::vector<double> times)
     : file_(std::move(file)),
       options_(std::move(options)),
       times_(std::move(times)),
@@ -18,10 +19,10 @@ FrameReader::FrameReader(std::string file, ReadOptions options, std::vector<doub
 
 void FrameReader::read_ahead() {
   for (; started_ < times_.size() && running_.size() < at_a_time_; ++started_) {
-    ReadOptions options = options_;
+    FileOptions options = options_;
     options.flatten.time = times_[started_];
     running_.push_back(std::async(std::launch::async, [file = file_, options = std::move(options)] {
-      return read_file(file, options);
+      return with_limit_option(read_file(file, options));
     }));
   }
 }

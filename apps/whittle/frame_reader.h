@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/read.h"
+#include "host/read_file.h"
 
 namespace whittle {
 
@@ -15,7 +15,7 @@ class FrameReader {
  public:
   /// `times` are the values of $t, a frame each. As many are read at a time as there are
   /// processors, and at most kMostAtATime.
-  FrameReader(std::string file, ReadOptions options, std::vector<double> times);
+  FrameReader(std::string file, FileOptions options, std::vector<double> times);
 
   /// The next frame. To be called once for each.
   Result<Read> next();
@@ -26,7 +26,7 @@ class FrameReader {
   void read_ahead();
 
   std::string file_;
-  ReadOptions options_;
+  FileOptions options_;
   std::vector<double> times_;
   size_t started_ = 0, at_a_time_ = 1;
   std::deque<std::future<Result<Read>>> running_;

@@ -1,11 +1,16 @@
 // whittle: the program. The first argument names a command; without one, it renders.
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <cstring>
 #include <exception>
 #include <new>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #ifdef __GLIBC__
@@ -14,8 +19,8 @@
 
 #include "commands.h"
 #include "console.h"
-#include "io/child_process.h"
-#include "io/pending_files.h"
+#include "host/child_process.h"
+#include "host/pending_files.h"
 #include "limits.h"
 #include "signals.h"
 
@@ -31,12 +36,29 @@ constexpr Command kCommands[] = {{"info", info_command},       {"cells", cells_c
                                  {"compare", compare_command}, {"bench", bench_command},
                                  {"model", model_command},     {"devices", devices_command}};
 
+/// A word that may have been meant for a command: letters only, and no file is called so.
+bool looks_like_command(std::string_view word) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  return !word.empty() && std::ranges::all_of(word, is_letter) &&
+         ::access(std::string(word).c_str(), F_OK) != 0 && errno == ENOENT;
+}
+
+int refuse_command(std::string_view word) {
+  std::string names;
+  for (const Command& command : kCommands) names += fmt::format(", {}", command.name);
+  say_lines(
+      fmt::format("whittle: there is neither a file nor a command '{}'; commands are: {}\n"
+                  "Try 'whittle --help'.",
+                  word, names.substr(2)));
+  return int(ErrorKind::kUsage);
+}
+
 int run(Arguments arguments) {
+  if (arguments.empty()) return render_command(arguments);
   for (const Command& command : kCommands) {
-    if (!arguments.empty() && std::strcmp(arguments[0], command.name) == 0) {
-      return command.run(arguments.subspan(1));
-    }
+    if (std::strcmp(arguments[0], command.name) == 0) return command.run(arguments.subspan(1));
   }
+  if (looks_like_command(arguments[0])) return refuse_command(arguments[0]);
   return render_command(arguments);
 }
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "io/scad.h"
+#include "host/scad.h"
 
 namespace whittle {
 namespace {

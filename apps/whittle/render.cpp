@@ -12,8 +12,8 @@
 #include "commands.h"
 #include "console.h"
 #include "frame_reader.h"
-#include "io/dependencies.h"
-#include "io/input_kinds.h"
+#include "host/dependencies.h"
+#include "host/input_kinds.h"
 #include "openscad_options.h"
 #include "option_group.h"
 #include "progress.h"
@@ -142,7 +142,7 @@ Status write_all(const RenderArguments& a, const std::vector<Output>& outputs, c
     const bool shows_pass = output.format == FileFormat::kPng && a.pass != Pass::kColor;
     const Result<std::string> bytes = encode(
         output.format, frame, shows_pass ? pass_picture(frame, a.pass, !a.no_background) : picture,
-        a.no_background, output.path);
+        a.no_background, output.path, a.renderer.threads);
     if (!bytes) return bytes.error();
     if (Status written = write_output(output.path, *bytes); !written) return written;
   }
@@ -155,7 +155,7 @@ Status draw(const RenderArguments& a, const std::vector<Output>& outputs, const 
   ProgressLine progress(!a.loading.quiet, "subdividing");
   if (Status prepared = renderer.prepare(camera); !prepared) return prepared;
   progress.stage("tracing");
-  Result<Frame> traced = renderer.trace(camera, progress.share());
+  Result<Frame> traced = renderer.trace(camera, {.progress = progress.share()});
   if (!traced) return traced.error();
   frame = *std::move(traced);
   const bool shows_color =

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "io/input_kinds.h"
+#include "host/input_kinds.h"
 
 namespace whittle {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/result.h"
-#include "io/read.h"
+#include "host/read_file.h"
 #include "option_group.h"
 
 namespace whittle {

@@ -5,8 +5,8 @@
 
 #include <csignal>
 
-#include "io/child_process.h"
-#include "io/pending_files.h"
+#include "host/child_process.h"
+#include "host/pending_files.h"
 
 namespace whittle {
 namespace {

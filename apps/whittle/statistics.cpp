@@ -9,9 +9,9 @@
 namespace whittle {
 namespace {
 
-constexpr std::array<const char*, kCellKinds> kKindNames = {
-    "nodes",        "empty",  "full",     "ignored", "conjunctions",
-    "disjunctions", "tables", "programs", "open"};
+constexpr std::array kKindNames = {"nodes",        "empty",  "full",     "ignored", "conjunctions",
+                                   "disjunctions", "tables", "programs", "open"};
+static_assert(kKindNames.size() == kCellKinds);
 
 using Lines = std::back_insert_iterator<std::string>;
 
@@ -99,10 +99,10 @@ std::string statistics(const Model& model, const Renderer& renderer, bool is_aut
   }
   if (const CellTree* cells = renderer.cells()) {
     add_cells(out, *cells);
-    if (renderer.backend() == Backend::kVulkanRaster)
-      add_drawing(out, renderer.raster_stats());
-    else
-      add_rays(out, renderer.trace_stats());
+    if (const RasterTracer* raster = renderer.raster_tracer())
+      add_drawing(out, raster->stats());
+    else if (const CpuTracer* cpu = renderer.cpu_tracer())
+      add_rays(out, cpu->stats());
   }
   const StageTimes& s = renderer.times();
   fmt::format_to(

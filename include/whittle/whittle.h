@@ -4,9 +4,8 @@
 //     whittle::Rendering picture = solid.render({.width = 800, .height = 600});
 //     picture.write("part.png");
 //
-// This is the whole of it: one header, which needs nothing but the standard library. Coordinates,
-// distances, ids and cameras are as docs/conventions.md says; choices are made by the names that
-// the program has for them (docs/whittle.1.md).
+// This is the whole of it; it needs nothing but the standard library. Coordinates, distances, ids
+// and cameras are as docs/conventions.md says.
 //
 // What fails throws whittle::Failure; where memory runs out, std::bad_alloc. Nothing is printed.
 #pragma once
@@ -14,12 +13,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "whittle/options.h"
 
 namespace whittle {
 
@@ -29,7 +33,7 @@ class Failure : public std::runtime_error {
   /// Why, in the words of the program's exit codes.
   enum class Cause {
     kInput = 1,    ///< the file or its content
-    kUsage = 2,    ///< an option: a name that does not exist, a size that is not possible
+    kUsage = 2,    ///< an option: a size that is not possible, a name that does not exist
     kMachine = 3,  ///< device, memory, disk
   };
 
@@ -43,63 +47,105 @@ class Failure : public std::runtime_error {
 using Point = std::array<double, 3>;
 
 struct LoadOptions {
-  std::string curves = "auto";        ///< "auto", "facets" or "smooth"
-  bool outlines = false;              ///< of a drawing, for style "openscad"
-  std::string matrices = "polished";  ///< or "as-written": rotations keep the error of six digits
-
-  // What is too much: a file that passes one of these limits is refused.
-  std::size_t most_bytes = 500'000'000;  ///< of text, less than 4 GiB
-  std::size_t most_depth = 1'000'000;    ///< statements inside statements
-  std::size_t most_nodes = 20'000'000;   ///< statements
-  std::size_t most_values = 10'000'000;  ///< numbers and other values in one statement
-  std::size_t most_facets = 2'100'000;   ///< flat faces, of all bodies together
-
+  Curves curves = Curves::kAuto;
+  /// That of pictures that ask for none. With kOpenscad curves are kOpenscad2021, unless they are
+  /// to be smooth, and drawings get outlines.
+  Style style = Style::kStudio;
+  /// Rotations get back what printing them with six digits took; false: they are as written.
+  bool polish_matrices = true;
+  ReadLimits limits{};
   int threads = 0;  ///< 0: all. The result does not depend on it.
 };
 
+/// What is rendered.
 struct RenderOptions {
   int width = 512, height = 512;  ///< pixels; each 1 to 65535, together at most 2^28
 
   // The view is OpenSCAD's. With none of the first five set, all of the solid is framed.
-  std::optional<Point> eye, center;       ///< vector form: from eye to center, +z up
-  std::optional<Point> target;            ///< gimbal form: the point looked at,
-  std::optional<Point> rotation_degrees;  ///< Euler angles,
-  std::optional<double> distance;         ///< from the eye to the target, model units
-  bool view_all = false;                  ///< choose the distance so that the solid fits
-  bool auto_center = false;               ///< with view_all: look at the middle of the solid
+  std::optional<Point> eye{}, center{};     ///< vector form: from eye to center, +z up
+  std::optional<Point> target{};            ///< gimbal form: the point looked at,
+  std::optional<Point> rotation_degrees{};  ///< Euler angles,
+  std::optional<double> distance{};         ///< from the eye to the target, model units
+  bool view_all = false;                    ///< choose the distance so that the solid fits
+  bool auto_center = false;                 ///< with view_all: look at the middle of the solid
   bool orthographic = false;
-  std::optional<double> fov_degrees;  ///< vertical, between 0 and 180; unset: the file's, else 22.5
+  std::optional<double>
+      fov_degrees{};  ///< vertical, between 0 and 180; unset: the file's, else 22.5
 
-  std::string style = "studio";  ///< "studio", "blinn" or "openscad"
-  std::string color_scheme;      ///< one of OpenSCAD's; empty: the style's own
-  std::optional<Point> light;    ///< "blinn": where the light stands; unset: at the eye
-  bool shadows = false;          ///< lights reach only what they see; not with "openscad"
+  std::optional<Style> style{};  ///< unset: that of LoadOptions
+  std::string color_scheme{};    ///< one of OpenSCAD's; empty: the style's own
+  std::optional<Point> light{};  ///< Style::kBlinn: where the light stands; unset: at the eye
+  bool shadows = false;          ///< lights reach only what they see; not with Style::kOpenscad
   bool background = true;        ///< false: what is not hit is transparent
   int antialias = 0;             ///< n * n rays a pixel at edges, 1 to 16; 0: what suits the style
+};
 
-  std::string backend = "auto";  ///< "auto", "cpu", "vulkan-raster" or "oracle"
-  std::string device;            ///< "vulkan-raster": number or part of a name; empty: the best
-  std::string shaders = "specialised";  ///< "vulkan-raster": or "unified"; the result is the same
-  int threads = 0;                      ///< 0: all. The result does not depend on it.
+/// What renders it.
+struct SessionOptions {
+  Backend backend = Backend::kAuto;
+  std::string device{};  ///< kVulkanRaster: number or part of a name; empty: the best
+  ShaderCases shaders = ShaderCases::kSpecialised;  ///< kVulkanRaster
+  int threads = 0;                                  ///< 0: all. The result does not depend on it.
   /// What the cells that space is cut into may take, bytes; with less every ray takes more time.
   /// The result does not depend on it.
   std::size_t cell_memory = std::size_t(1) << 30;
 };
 
+/// A ray from a point on; the direction's length does not count, but must be positive.
+struct WorldRay {
+  Point from, direction;
+};
+
+/// Where a ray first enters or leaves the solid.
+struct Seen {
+  std::uint32_t id = 0;  ///< the primitive statement whose surface it is; 0: nothing is met
+  double distance = 0;   ///< from where the ray starts, model units
+  Point point{};
+  Point normal{};  ///< unit, outward
+
+  explicit operator bool() const { return id != 0; }
+};
+
+/// A part of a picture that is being traced, and what its pixels show so far: some that show
+/// nothing may show something when the part is told again. Rows from the top, each from the left.
+struct Part {
+  int x = 0, y = 0;           ///< its first pixel
+  int width = 0, height = 0;  ///< pixels
+  std::vector<std::uint32_t> id;
+  std::vector<float> distance;  ///< along the ray from the eye; infinity where nothing is hit
+};
+
+/// What a render is told, and tells, while it runs. All of it may be left out. The functions are
+/// called from any thread, several at a time, and must not throw.
+struct Control {
+  /// Once a stop is requested, the call returns soon, and without a result.
+  std::stop_token stop{};
+  std::function<void(double share)> progress{};  ///< of the tracing that is done, 0 to 1
+  std::function<void(const Part&)> part{};       ///< before antialiasing and colours
+};
+
 /// A picture and its facts; width * height entries each, rows from the top, each from the left.
 struct Rendering {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> rgba;  ///< four bytes a pixel: sRGB, straight alpha
-  std::vector<float> distance;     ///< along the ray from the eye; infinity where nothing is hit
-  std::vector<float> normal;       ///< three floats a pixel: unit, outward; zero: nothing hit
-  std::vector<std::uint32_t> id;   ///< the primitive statement that is seen; 0: nothing hit
-  std::string backend;             ///< the one that was used
-  bool transparent = false;        ///< made without background
+  std::vector<std::uint8_t> rgba;   ///< four bytes a pixel: sRGB, straight alpha
+  std::vector<float> distance;      ///< along the ray from the eye; infinity where nothing is hit
+  std::vector<float> normal;        ///< three floats a pixel: unit, outward; zero: nothing hit
+  std::vector<std::uint32_t> id;    ///< the primitive statement that is seen; 0: nothing hit
+  Backend backend = Backend::kCpu;  ///< the one that was used
+  bool transparent = false;         ///< made without background
 
   /// Writes a .png (the picture) or an .exr (picture and facts), as the name ends. The file is
   /// there whole or not at all.
   void write(const std::string& path) const;
 };
+
+/// Where something stands in a text; both count from 1, columns in bytes.
+struct Place {
+  std::uint32_t line = 0, column = 0;
+  bool operator==(const Place&) const = default;
+};
+
+class Csg;
 
 /// A loaded model. Copies share it; all uses of one object or its copies from several threads at a
 /// time are safe, as nothing changes it.
@@ -110,6 +156,9 @@ class Solid {
   /// Reads .csg text; `name` is what messages call it.
   static Solid parse(std::string_view text, const std::string& name = "<text>",
                      const LoadOptions& options = {});
+  /// What was made in code. Its primitives are numbered in the order in which a text would hold
+  /// them.
+  static Solid make(const Csg& csg, const LoadOptions& options = {});
 
   /// `file:line:column: warning: ...`, in the order of the file.
   const std::vector<std::string>& warnings() const;
@@ -117,17 +166,92 @@ class Solid {
   bool is_complete() const;
   /// The number of primitive statements in the file; ids are 1 to this.
   std::uint32_t statement_count() const;
+  /// Where the statement of that id stands in the text; none if it does not, or was left out.
+  std::optional<Place> place(std::uint32_t id) const;
   /// The box that holds the solid, {lowest corner, highest corner}; none if the solid is empty or
   /// unbounded.
   std::optional<std::array<Point, 2>> bounds() const;
 
-  /// Costs all stages; nothing is kept between calls.
-  Rendering render(const RenderOptions& options = {}) const;
+  /// One picture; for several, a Session keeps what they share.
+  Rendering render(const RenderOptions& options = {}, const SessionOptions& session = {}) const;
 
  private:
+  friend class Session;
   struct State;
   explicit Solid(std::shared_ptr<const State> state);
   std::shared_ptr<const State> state_;
+};
+
+/// Keeps what pictures of one solid have in common: surfaces, cells and the device. Its calls may
+/// come from one thread at a time. Pictures are those that Solid::render() makes.
+class Session {
+ public:
+  explicit Session(const Solid& solid, const SessionOptions& options = {});
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+  ~Session();
+
+  Rendering render(const RenderOptions& options = {});
+  /// None if it was stopped.
+  std::optional<Rendering> render(const RenderOptions& options, const Control& control);
+
+  /// What is seen at a position of the picture that render() would make: in pixels, (0, 0) is its
+  /// top left corner, and the middle of the first pixel is (0.5, 0.5).
+  Seen pick(const RenderOptions& options, double x, double y);
+  /// What rays see, as many as there are. The fastest are those whose neighbours go nearly the same
+  /// way. Precondition: all numbers are finite.
+  std::vector<Seen> cast(std::span<const WorldRay> rays);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// A solid in the making, for models that are made in code:
+///
+///     Csg plate = Csg::cube({40, 20, 5}) - Csg::cylinder(7, 3).moved({20, 10, -1});
+///
+/// A value: what is made of it leaves it as it is, and shares it. Numbers must be finite.
+class Csg {
+ public:
+  static Csg cube(const Point& size, bool centered = false);
+  /// `facets` 0: a true sphere; 3 to 2048: OpenSCAD's polyhedron for that $fn.
+  static Csg sphere(double r, int facets = 0);
+  /// Along z from 0 to h, or about 0. `facets` as above.
+  static Csg cylinder(double h, double r, bool centered = false, int facets = 0);
+  /// With r1 below and r2 above; one of them may be 0.
+  static Csg cone(double h, double r1, double r2, bool centered = false, int facets = 0);
+  /// Faces are loops of indices of points, clockwise seen from outside.
+  static Csg polyhedron(std::vector<Point> points, std::vector<std::vector<std::uint32_t>> faces);
+  /// The points p with normal . p <= offset.
+  static Csg half_space(const Point& normal, double offset);
+  /// The inside of an outline in the plane z = 0, carried up to h.
+  static Csg extrusion(std::vector<std::array<double, 2>> outline, double h);
+
+  static Csg union_of(std::vector<Csg> operands);
+  static Csg intersection_of(std::vector<Csg> operands);
+  /// The first without all others.
+  static Csg difference_of(std::vector<Csg> operands);
+  /// The convex hull of all of them.
+  static Csg hull_of(std::vector<Csg> operands);
+  friend Csg operator|(const Csg& a, const Csg& b) { return union_of({a, b}); }
+  friend Csg operator&(const Csg& a, const Csg& b) { return intersection_of({a, b}); }
+  friend Csg operator-(const Csg& a, const Csg& b) { return difference_of({a, b}); }
+
+  Csg moved(const Point& by) const;
+  /// About x, then y, then z, as OpenSCAD's rotate().
+  Csg turned(const Point& degrees) const;
+  Csg scaled(const Point& by) const;
+  /// Three rows of four: the point (x, y, z, 1) is mapped.
+  Csg transformed(const std::array<std::array<double, 4>, 3>& rows) const;
+  /// Each 0 to 1.
+  Csg colored(float r, float g, float b, float a = 1) const;
+
+ private:
+  friend class Solid;
+  struct Node;
+  explicit Csg(std::shared_ptr<const Node> node) : node_(std::move(node)) {}
+  std::shared_ptr<const Node> node_;
 };
 
 }  // namespace whittle

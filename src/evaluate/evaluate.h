@@ -11,7 +11,7 @@
 #include "model/document.h"
 #include "model/model.h"
 #include "model/warnings.h"
-#include "shape/fragments.h"
+#include "whittle/options.h"
 
 namespace whittle {
 
@@ -19,7 +19,7 @@ struct EvaluateOptions {
   Curves curves = Curves::kAuto;
   /// Of all flat faces together, and of corners that are computed with: more are an error. It names
   /// the limit as the command line does.
-  size_t most_facets = 2'100'000;
+  size_t most_facets = ReadLimits{}.facets;
   int threads = 0;  ///< 0: all
   /// The content of a file that the document names, as it names it; none if there is no such file,
   /// which is a warning as in OpenSCAD. Errors say why it cannot be read, without a place. Without

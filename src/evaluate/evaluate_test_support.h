@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/read.h"
+#include "csg/read_csg.h"
 #include "lower/evaluate.h"
 #include "lower/lower.h"
 #include "model/instances.h"

@@ -3,13 +3,17 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <random>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/folder_for_test.h"
+#include "base/limit_hint.h"
 #include "evaluate/budget.h"
 #include "evaluate/evaluate_test_support.h"
+#include "host/named_files.h"
 
 namespace whittle {
 namespace {
@@ -22,9 +26,11 @@ class NamedFileTest : public testing::Test {
     fs::create_directories((folder_.path() / name).parent_path());
     std::ofstream(folder_.path() / name, std::ios::binary) << content;
   }
-  ReadOptions options(const std::string& inside = "") {
+  ReadOptions options(const std::string& inside = "", std::optional<std::string> root = {},
+                      size_t most_bytes = 1'000'000) {
     ReadOptions options;
-    options.folder = (folder_.path() / inside).string();
+    options.named_files =
+        named_files((folder_.path() / inside).string(), std::move(root), most_bytes);
     return options;
   }
 
@@ -74,8 +80,7 @@ TEST_F(NamedFileTest, TheRootConfinesThem) {
   write("outside.off", tetrahedron_);
   write("root/inside.off", tetrahedron_);
   fs::create_symlink("../outside.off", folder_.path() / "root/link.off");
-  ReadOptions confined = options("root");
-  confined.import_root = (folder_.path() / "root").string();
+  const ReadOptions confined = options("root", (folder_.path() / "root").string());
   const auto is_read = [&](const std::string& name) {
     const Read read = evaluated("import(\"" + name + "\");", confined);
     return !bounds(read.model).box.is_empty();
@@ -94,15 +99,14 @@ TEST_F(NamedFileTest, TheRootConfinesThem) {
 TEST_F(NamedFileTest, BytesAreLimitedTogether) {
   write("a.off", tetrahedron_);
   write("b.off", tetrahedron_);
-  ReadOptions small = options();
-  small.limits.bytes = tetrahedron_.size() + 20;
-  EXPECT_TRUE(evaluated("import(\"a.off\");", small).warnings.empty());
-  EXPECT_TRUE(evaluated("import(\"a.off\");import(\"a.off\");", small).warnings.empty())
+  const auto limited = [&](size_t most_bytes) { return options("", {}, most_bytes); };
+  const size_t size = tetrahedron_.size();
+  EXPECT_TRUE(evaluated("import(\"a.off\");", limited(size)).warnings.empty());
+  EXPECT_TRUE(evaluated("import(\"a.off\");import(\"a.off\");", limited(size)).warnings.empty())
       << "read once";
-  small.limits.bytes = 2 * tetrahedron_.size() - 1;
-  const Read read = evaluated("import(\"a.off\");import(\"b.off\");", small);
+  const Read read = evaluated("import(\"a.off\");import(\"b.off\");", limited(2 * size - 1));
   ASSERT_EQ(read.warnings.size(), 1u);
-  EXPECT_NE(read.warnings[0].find("--limit bytes=N"), std::string::npos);
+  EXPECT_NE(read.warnings[0].find(limit_hint("bytes")), std::string::npos);
 }
 
 TEST(EvaluationLimits, FacetsAreCountedBeforeTheyAreMade) {
@@ -121,7 +125,7 @@ TEST(EvaluationLimits, FacetsAreCountedBeforeTheyAreMade) {
         "900); }"}) {
     const std::string message = evaluation_error(text, options);
     EXPECT_TRUE(message.starts_with("t.csg:1:")) << text << ": " << message;
-    EXPECT_NE(message.find("--limit facets=N raises it"), std::string::npos) << text;
+    EXPECT_NE(message.find(limit_hint("facets")), std::string::npos) << text;
   }
 }
 
@@ -162,8 +166,9 @@ TEST(EvaluationLimits, DepthTakesNoStack) {
   evaluated(nested("linear_extrude(1) ", "square(1);"));
   evaluated(nested("minkowski() { difference() { cube(2); cube(1); } ", "cube(1);") +
             std::string(kDeep, '}'));
-  EXPECT_NE(evaluation_error(nested("resize([2, 0, 0]) ", "cube(1);"), {}).find("--limit"),
-            std::string::npos);
+  EXPECT_NE(
+      evaluation_error(nested("resize([2, 0, 0]) ", "cube(1);"), {}).find(limit_hint("facets")),
+      std::string::npos);
   evaluated("linear_extrude(1) " + nested("translate([0.001, 0]) offset(0) ", "square(1);"));
 }
 

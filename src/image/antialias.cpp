@@ -124,7 +124,7 @@ std::vector<uint8_t> edge_mask(const Frame& frame, const Camera& camera, const W
 
 Picture shade_antialiased(Tracer& tracer, const Camera& camera, const Frame& frame,
                           std::span<const Appearance> appearances, const ShadeSettings& settings,
-                          int n, const Workers& workers) {
+                          int n, const Workers& workers, const std::stop_token& stop) {
   Shadows finder(tracer, camera, settings, workers);
   std::vector<uint8_t> shadows;
   if (settings.shadows) shadows = shadows_of(frame, finder);
@@ -140,7 +140,7 @@ Picture shade_antialiased(Tracer& tracer, const Camera& camera, const Frame& fra
   std::vector<PixelPosition> positions;
   std::vector<Hit> hits;
   PerWorker<MeanScratch> scratch(workers);
-  for (size_t first = 0; first < edges.size(); first += batch) {
+  for (size_t first = 0; first < edges.size() && !stop.stop_requested(); first += batch) {
     const size_t count = std::min(batch, edges.size() - first);
     positions.clear();
     for (size_t k = 0; k < count; ++k) {

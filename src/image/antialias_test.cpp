@@ -7,7 +7,7 @@
 
 #include "image/srgb.h"
 #include "support/instruction_sets.h"
-#include "trace/view.h"
+#include "trace/view_for_test.h"
 
 namespace whittle {
 namespace {
@@ -19,7 +19,7 @@ class FunctionTracer : public Tracer {
  public:
   explicit FunctionTracer(std::function<Hit(const Ray&)> shoot) : shoot_(std::move(shoot)) {}
   const char* name() const override { return "function"; }
-  Frame render(const Camera& camera, const Progress&) override {
+  Frame render(const Camera& camera, const RenderControl&) override {
     Frame frame(camera.width, camera.height);
     for (int y = 0; y < camera.height; ++y) {
       for (int x = 0; x < camera.width; ++x) frame.at(x, y) = shoot_(camera.ray(x + 0.5, y + 0.5));
@@ -33,6 +33,9 @@ class FunctionTracer : public Tracer {
     }
     probed += positions.size();
   }
+  void cast(std::span<const Ray> rays, std::span<Hit> hits) override {
+    std::ranges::transform(rays, hits.begin(), shoot_);
+  }
   size_t probed = 0;
 
  private:
@@ -41,7 +44,7 @@ class FunctionTracer : public Tracer {
 
 /// Straight down on the plane z = 0, one unit a pixel, (0, 0) in the middle.
 Camera top_camera(int width, int height) {
-  ViewOptions options = *parse_camera("0,0,0,0,0,0,50");
+  ViewOptions options = view_of({0, 0, 0, 0, 0, 0, 50});
   options.orthographic = true;
   options.width = width;
   options.height = height;
@@ -159,7 +162,7 @@ TEST(Antialias, TheInsideOfABallIsNoEdgeAndItsOutlineIs) {
 }
 
 TEST(Antialias, APlaneSeenAtAGrazingAngleIsNoEdge) {
-  ViewOptions options = *parse_camera("0,0,0,85,0,30,50");
+  ViewOptions options = view_of({0, 0, 0, 85, 0, 30, 50});
   options.width = options.height = 64;
   for (const bool orthographic : {false, true}) {
     options.orthographic = orthographic;

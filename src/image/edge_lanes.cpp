@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <iterator>
 
+#include "base/instruction_set.h"
+
 // This file is compiled once for every instruction set; see foreach_target.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "image/edge_lanes.cpp"
@@ -111,15 +113,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace whittle {
 
-HWY_EXPORT(look_in_lanes);
-HWY_EXPORT(differences_in_lanes);
+WHITTLE_EXPORT(look_in_lanes);
+WHITTLE_EXPORT(differences_in_lanes);
 
 void look_at_row(const PixelRays& rays, std::span<const Hit> hits, int y, EdgeRow& row) {
-  HWY_DYNAMIC_DISPATCH(look_in_lanes)(rays, hits, y, row);
+  WHITTLE_DISPATCH(look_in_lanes)(rays, hits, y, row);
 }
 
 void find_differences(const EdgeRow& here, const EdgeRow* below, std::span<uint8_t> bits) {
-  HWY_DYNAMIC_DISPATCH(differences_in_lanes)(here, below, bits);
+  WHITTLE_DISPATCH(differences_in_lanes)(here, below, bits);
 }
 
 }  // namespace whittle

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <iterator>
 
+#include "base/instruction_set.h"
+
 // This file is compiled once for every instruction set; see foreach_target.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "image/shade_lanes.cpp"
@@ -256,22 +258,22 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace whittle {
 
-HWY_EXPORT(row_in_lanes);
-HWY_EXPORT(samples_in_lanes);
-HWY_EXPORT(store_in_lanes);
+WHITTLE_EXPORT(row_in_lanes);
+WHITTLE_EXPORT(samples_in_lanes);
+WHITTLE_EXPORT(store_in_lanes);
 
 void shade_row(const ShadeParameters& shader, const SeenHits& seen, int y, uint8_t* rgba) {
-  HWY_DYNAMIC_DISPATCH(row_in_lanes)(shader, seen, y, rgba);
+  WHITTLE_DISPATCH(row_in_lanes)(shader, seen, y, rgba);
 }
 
 void shade_samples(const ShadeParameters& shader, const SeenHits& seen,
                    std::span<const PixelPosition> places, Colors& colors) {
   colors.resize(seen.hits.size());
-  HWY_DYNAMIC_DISPATCH(samples_in_lanes)(shader, seen, places, colors);
+  WHITTLE_DISPATCH(samples_in_lanes)(shader, seen, places, colors);
 }
 
 void store_colors(const ShadeParameters& shader, const Colors& colors, uint8_t* rgba) {
-  HWY_DYNAMIC_DISPATCH(store_in_lanes)(shader, colors, rgba);
+  WHITTLE_DISPATCH(store_in_lanes)(shader, colors, rgba);
 }
 
 }  // namespace whittle

@@ -45,8 +45,8 @@ class Shadows {
 
   void find_light(const Light& light, uint8_t bit, std::span<const Hit> hits,
                   std::vector<uint8_t>& shadows);
-  void look_from(const Light& light, Vec3 forward, std::span<const Target> targets, uint8_t bit,
-                 std::vector<uint8_t>& shadows);
+  /// From the light.
+  Ray ray_to(Vec3 point, const Light& light) const;
 
   Tracer& tracer_;
   const Camera camera_;
@@ -55,9 +55,8 @@ class Shadows {
   const Workers& workers_;
   // Scratch space.
   std::vector<Seen> seen_;
-  std::vector<Target> targets_, group_;
-  std::vector<Vec3> along_;  ///< of targets: across and along the light's way
-  std::vector<PixelPosition> positions_;
+  std::vector<Target> targets_;
+  std::vector<Ray> rays_;
   std::vector<Hit> found_;
 };
 

@@ -1,13 +1,9 @@
-// The looks there are, and what defines them to others.
+// The constants that define the styles, for those who reproduce them elsewhere.
 #pragma once
 
-namespace whittle {
+#include "whittle/options.h"
 
-enum class Style {
-  kStudio,    ///< soft lights fixed to the camera, computed in linear light
-  kBlinn,     ///< one positional light, Blinn highlight; values are display values, as in the paper
-  kOpenscad,  ///< what OpenSCAD's --render draws; it knows no color()
-};
+namespace whittle {
 
 /// kBlinn: display value = kBlinnAmbient * base + kBlinnDiffuse * base * max(n.l, 0) +
 /// kBlinnSpecular * max(n.h, 0)^16, the last only where n.l > 0. Chosen so that a white base that

@@ -33,10 +33,11 @@ class Boundary {
   /// In the region that is looked at, triangles are no farther than this from the planes of their
   /// faces.
   double slack() const { return slack_; }
-  /// What no distance can be told from.
+  /// No distance below this can be told from zero.
   double rounding() const { return rounding_; }
-  /// Measures the slack anew: `distance(face, point)` from the plane of a face; no less than
-  /// `rounding`. Two planes that are one in the region may part far beyond it.
+  /// Measures the slack again. `distance(face, point)` is that of a point from the plane of a face.
+  /// The slack is at least `rounding`. (Two planes that are one in the region may part far beyond
+  /// it.)
   template <class Distance>
   void measure_slack(double rounding, const Box& region, const Workers* workers,
                      const Distance& distance);
@@ -89,7 +90,7 @@ class Boundary {
 
   std::vector<Vec3> points_;
   std::vector<Triangle> triangles_;  ///< in the order of the leaves
-  std::vector<Column> columns_;      ///< by triangle: most are told apart by them alone
+  std::vector<Column> columns_;      ///< by triangle: for most the column alone decides
   std::vector<Node> nodes_;          ///< the root first
   double slack_ = 0, rounding_ = 0;
 };

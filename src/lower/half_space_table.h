@@ -1,9 +1,10 @@
-// Numbers half-spaces, giving equal and complementary ones the same number: this is how coincident
-// faces are solved, by naming instead of by epsilon at ray time.
+// Numbers half-spaces. Equal and complementary ones get the same number: coincident faces are
+// recognised once, by name, and not by an epsilon at every ray.
 //
 // Equal means: within the tolerance of the half-space that was numbered first, everywhere the
-// primitive at hand reaches (docs/conventions.md, Coincidence). Later ones are compared with those
-// that have a number only, which never move, so a row of nearly equal planes cannot chain into one.
+// primitive at hand reaches (docs/conventions.md, Coincidence). A new half-space is compared only
+// with those that have a number. These never move, so a row of nearly equal planes cannot chain
+// into one.
 #pragma once
 
 #include <array>
@@ -52,15 +53,15 @@ class HalfSpaceTable {
   };
   Fingerprint place_of(const HalfSpace& h, const Reach& reach) const;
 
-  /// Those that had no other near them when they were added, which are few in any place, and the
-  /// rest.
+  /// Half-spaces in two indices. One is lonely if no other was near it when it was added; any place
+  /// has few of these. All others are crowded.
   struct Shelves {
     PointIndex lonely, crowded;
     PointIndex& of(bool is_crowded) { return is_crowded ? crowded : lonely; }
   };
 
-  /// Calls visit(literal) for those on the shelf that may be equal over the reach, or whose
-  /// complements may, until it returns false.
+  /// Calls visit(literal) for the half-spaces on the shelf that may be equal over the reach, and
+  /// for those whose complements may be. Stops when it returns false.
   template <class Visit>
   void visit_near(PointIndex Shelves::*shelf, const HalfSpace& h, const Reach& reach,
                   const Fingerprint& at, const Visit& visit) const;
@@ -83,11 +84,12 @@ class HalfSpaceTable {
 
   std::vector<Literal> near_;  ///< while one is added
   Shelves balls_, walls_;      ///< by fingerprint
-  /// Planes in groups that have one normal but for rounding, and by group and distance from the
-  /// origin.
+  /// Planes are found by group and distance from the origin. A group has one normal, but for
+  /// rounding; these are the groups' normals.
   std::vector<Vec3> normals_;
-  /// In cells of several sizes, so that who asks for very near ones does not meet all that are
-  /// near; in the coarsest alone as long as there are few.
+  /// The groups by normal, in hash cells of several sizes, so that a search in a small
+  /// neighbourhood does not meet all of a large one. As long as there are few groups, only the
+  /// coarsest is filled.
   static constexpr std::array<double, 3> kNormalCellsPerUnit = {1 << 6, 1 << 10, 1 << 16};
   std::array<PointIndex, kNormalCellsPerUnit.size()> groups_;
   Shelves planes_;

@@ -154,7 +154,7 @@ Result<Scene> lower(const Model& model, const Workers* workers) {
   if (made.face_count() >= Token::kMaxPayload) return too_large();
   scene.origin = region.center();
   scene.region = {region.lo - scene.origin, region.hi - scene.origin};
-  const double least_tolerance = together(region);
+  const double least_tolerance = ray_tolerance(region);
   made.make(scene, least_tolerance);
   merge_faces(model, made, least_tolerance, workers, scene);
   measure_slacks(scene, least_tolerance, workers);

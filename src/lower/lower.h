@@ -1,7 +1,6 @@
-// Lowering: from the model to one formula over numbered half-spaces (DESIGN: half-spaces, not
-// primitives, are the literals). Transforms are folded into coefficients, difference becomes
-// and-not, nested operators of one kind become one, and equal or complementary half-spaces get one
-// number.
+// Lowering: from the model to one formula whose literals are numbered half-spaces. Transforms are
+// folded into coefficients, a difference becomes "and not", nested operators of one kind become
+// one, and equal or complementary half-spaces get one number.
 #pragma once
 
 #include "base/result.h"

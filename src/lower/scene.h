@@ -1,8 +1,8 @@
 // The lowered model: numbered half-spaces, and one formula over them.
 //
-// All coordinates are local: world minus `origin`, the middle of the region, so that distance from
-// the world's origin eats no digits. Each half-space has a centre of its own near the primitive it
-// came from, for the same reason.
+// All coordinates are local: world minus `origin`, the middle of the region. So a model far from
+// the world's origin loses no digits. For the same reason each half-space has a centre of its own,
+// near the primitive it came from.
 #pragma once
 
 #include <cstdint>

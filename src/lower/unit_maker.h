@@ -43,7 +43,7 @@ class UnitMaker {
   size_t face_count() const { return total_.faces; }
 
   /// Once the scene's origin, region and tolerance are known: its units and faces, and of each face
-  /// the half-space that it was written as, by its number. `least_tolerance`: see together().
+  /// the half-space that it was written as, by its number. `least_tolerance`: see ray_tolerance().
   void make(Scene& scene, double least_tolerance);
 
   FaceSieve& sieve() { return *sieve_; }

@@ -295,7 +295,7 @@ Box view_region(const Bounds& bounds) {
                         : Box{box.center() - all(half), box.center() + all(half)};
 }
 
-double together(const Box& region) {
+double ray_tolerance(const Box& region) {
   constexpr double kFiveRoundings = 1e-15;
   if (region.is_empty()) return 0;
   return kFiveRoundings *

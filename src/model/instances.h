@@ -108,12 +108,12 @@ inline constexpr double kRelativeTolerance = 2e-6;
 Box view_region(const Bounds& bounds);
 inline constexpr double kUnboundedReach = 1000;
 
-/// Crossings of a ray closer together than this happen together: rounding cannot tell which comes
-/// first. So a curved wall that touches a flat one along a line has one owner there (the tie rules
-/// of docs/conventions.md). About five roundings of numbers as large as the region (world space) is
-/// and as its coordinates are; the parts of a model are many times larger. Surfaces closer together
-/// than this are one (own_tolerance()).
-double together(const Box& region);
+/// Crossings of a ray that are closer than this coincide: rounding cannot tell which comes first.
+/// So a curved wall that touches a flat one along a line has one owner there (the tie rules of
+/// docs/conventions.md). It is about five roundings of numbers as large as the region's size and
+/// coordinates (world space); the parts of a model are many times larger. Surfaces closer than this
+/// are one (own_tolerance()).
+double ray_tolerance(const Box& region);
 
 /// Warnings about transforms that flatten or are not finite, as full messages.
 std::vector<std::string> transform_warnings(const Model& model);

@@ -40,6 +40,13 @@ void Warnings::add_unsupported(std::string_view kind, SourceLocation where,
   }
 }
 
+void Warnings::add_missing_file(SourceLocation where, std::string_view name) {
+  add("there is no file of this name; nothing is shown for it", where,
+      fmt::format("there is no file {}; nothing is shown for it", name));
+  if (missing_file_.empty())
+    missing_file_ = message_at(file_, where, fmt::format("error: there is no file {}", name));
+}
+
 std::vector<std::string> Warnings::take() {
   for (const auto& [kind, number] : counts_) {
     if (number > kShown) {

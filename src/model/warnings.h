@@ -36,8 +36,15 @@ class Warnings {
   void add_unsupported(std::string_view kind, SourceLocation where, std::string_view message,
                        std::string what);
 
-  /// The first in the file of what was added so, if any.
+  /// Adds a warning of a file that is not there.
+  void add_missing_file(SourceLocation where, std::string_view name);
+
+  /// The first in the file of what add_unsupported() was told, if any.
   const std::optional<Unsupported>& unsupported() const { return unsupported_; }
+
+  /// The first of what add_missing_file() was told, as a full message that calls it an error; empty
+  /// if there is none.
+  const std::string& missing_file() const { return missing_file_; }
 
   /// All messages, then a line for each kind of which some were only counted.
   std::vector<std::string> take();
@@ -50,6 +57,7 @@ class Warnings {
   std::vector<std::string> messages_;
   std::map<std::string, size_t, std::less<>> counts_;
   std::optional<Unsupported> unsupported_;
+  std::string missing_file_;
 };
 
 }  // namespace whittle

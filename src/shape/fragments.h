@@ -6,16 +6,9 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "whittle/options.h"
 
 namespace whittle {
-
-/// What `--curves` and the style choose.
-enum class Curves {
-  kAuto,          ///< $fn > 0 asks for facets and gets them; $fn = 0 is a true curve
-  kFacets,        ///< OpenSCAD's polyhedra everywhere
-  kSmooth,        ///< true curves everywhere
-  kOpenscad2021,  ///< kFacets as OpenSCAD 2021.01 has them: the fraction of $fn is cut off
-};
 
 /// OpenSCAD's special variables that rule the number of facets.
 struct FragmentSettings {

@@ -7,8 +7,6 @@ namespace {
 
 /// Formulas of no more literals than this are looked at as a union of polytopes.
 constexpr uint32_t kFewLiterals = 32;
-/// Formulas that would have no more literals than this get all their primitives expanded.
-constexpr uint32_t kExpandAll = 64;
 constexpr double kSplitShare = 0.483;
 
 /// With fewer tokens a cell is no work worth sharing.
@@ -36,8 +34,7 @@ std::array<Box, 2> split(const Box& box, int axis) {
 
 Truth simplify_for(const Box& box, const Formula& around, const Scene& scene,
                    Simplifier& simplifier, Formula& out) {
-  const bool is_small = expanded_size(scene, around) <= kExpandAll;
-  return simplifier.simplify(around, box, is_small ? Expand::kUnits : Expand::kLarge, out);
+  return simplifier.simplify(around, box, expand_of(expanded_size(scene, around)), out);
 }
 
 bool is_large(const Simplifier::Size& size) {

@@ -12,65 +12,17 @@
 #include <optional>
 #include <vector>
 
-#include "base/arena.h"
 #include "subdivide/box_cut.h"
+#include "subdivide/cell_store.h"
 #include "subdivide/leaf.h"
+#include "subdivide/open_cell.h"
 #include "subdivide/simplify.h"
+#include "subdivide/split_rules.h"
 #include "subdivide/subdivide.h"
 #include "subdivide/threshold.h"
 #include "subdivide/wide.h"
 
 namespace whittle {
-
-/// A cell that is not known yet. Its formula is simplified for its box; the tokens stand behind,
-/// and then which triangles of boundaries reach the cell.
-struct OpenCell {
-  Box box;
-  size_t memory;  ///< its share: what it and all below it may take
-  uint32_t depth;
-  uint32_t stalled;   ///< splits since the formula last became shorter
-  uint32_t literals;  ///< of the formula, expanded
-  bool is_crowded;    ///< boundaries are in it with many more triangles (Simplifier::Size)
-  uint32_t token_count;
-  uint32_t near_count;
-
-  std::span<const Token> tokens() const {
-    return {reinterpret_cast<const Token*>(this + 1), token_count};
-  }
-  /// See NearTriangles.
-  std::span<const uint32_t> near() const {
-    return {reinterpret_cast<const uint32_t*>(tokens().data() + token_count), near_count};
-  }
-  /// Of tokens and of what is near.
-  size_t words() const { return size_t(token_count) + near_count; }
-  static_assert(sizeof(Token) == sizeof(uint32_t));
-  static size_t bytes(size_t words) { return sizeof(OpenCell) + words * sizeof(Token); }
-};
-
-/// Two cells in a row, aligned so that either tells where the pair begins. What follows them is
-/// there only if there is a threshold: what each of them would be on its other side, and the last
-/// move of it that changed one of them or anything below.
-struct alignas(2 * sizeof(Cell)) CellPair {
-  Cell cells[2];
-  uint64_t across[2];
-  uint64_t changed;
-};
-
-/// The pair of which a cell is one.
-inline CellPair& pair_of(const Cell& cell) {
-  const auto at = reinterpret_cast<uintptr_t>(&cell);
-  return *reinterpret_cast<CellPair*>(at - at % alignof(CellPair));
-}
-
-/// What a cell of a pair would be if it were small and is not, or the other way round: the bits of
-/// its link, and kIfSmall in the first case. Open: not known yet. kNowhere: the same as it is, or
-/// it is open and nobody knows at all.
-inline uint64_t& across(const Cell& cell) {
-  CellPair& pair = pair_of(cell);
-  return pair.across[&cell == pair.cells ? 0 : 1];
-}
-inline constexpr uint64_t kIfSmall = 1u << 6;
-inline constexpr uint64_t kNowhere = uint64_t(CellKind::kOpen);
 
 class Refiner;
 
@@ -97,14 +49,13 @@ class Refiner {
   /// Whether a cell would be another one across the threshold, and how much is known of that.
   enum class Across { kSame, kIgnored, kUnknown };
 
-  /// The whole region, open or decided already.
-  CellLink open_region();
-  CellLink refine(const Cell& cell, const OpenCell& open, const Helpers* helpers);
-  bool ends(const OpenCell& open, CellLink& link);
-  size_t bytes_unsplit(size_t literals, size_t words) const;
-  size_t most_words(std::span<const Token> formula) const;
-  bool keep_formula(const Cell& cell, CellLink open) const;
-  size_t bytes_of_pair() const { return has_threshold_ ? sizeof(CellPair) : 2 * sizeof(Cell); }
+  /// What is found out about a cell when it is asked whether it ends.
+  struct Ending {
+    std::optional<CellLink> link;  ///< what the cell is; none: it is to be split
+    bool is_small = false;
+    Across across = Across::kSame;
+  };
+
   /// The two parts of a cell that is cut: boxes, truths, formulas.
   struct Halves {
     Cut cut;
@@ -114,10 +65,13 @@ class Refiner {
     std::vector<uint32_t> near[2];
     double cost = 0;  ///< literals that a ray through the parent will meet, up to a factor
   };
+
+  /// The whole region, open or decided already.
+  CellLink open_region();
+  Ending ending(const OpenCell& open);
+  CellLink split(const Cell& cell, const OpenCell& open, const Helpers* helpers);
+  CellLink split_in_two(const Cell& cell, const OpenCell& open);
   void halve(const OpenCell& parent, Cut cut, Halves& halves);
-  CellLink split(const Cell& cell, const OpenCell& open);
-  CellLink leaf();
-  bool simple_enough() const;
   bool is_wide(std::span<const Token> formula, uint32_t depth) const;
   std::optional<CellLink> split_wide(const Cell& cell, const OpenCell& parent,
                                      const Helpers* helpers);
@@ -125,31 +79,19 @@ class Refiner {
                                      const SplitGrid& grid,
                                      const std::vector<std::span<const Token>>& formulas,
                                      std::span<const uint32_t> near, const Helpers* helpers);
-  static Loop loop_over(const Helpers* helpers);
-  CellLink join(const Cell& cell, const SplitGrid& grid, std::vector<CellLink> links);
-  Cell* new_pair();
-  /// A cell of its own, open or decided already.
-  CellLink open(const OpenCell& what, std::span<const Token> formula,
-                std::span<const uint32_t> near);
-  CellLink decided(bool full);
 
   const Scene& scene_;
   const SubdivideSettings& settings_;
-  const bool has_threshold_;
-  double region_edge_;
-  Arena cells_, leaves_;
-  BlockPool open_cells_;
+  const SplitRules rules_;
+  const double margin_;  ///< how far cells are grown, local units
+  CellStore store_;
   Simplifier simplifier_;
   BoxCutter box_cutter_;
   LeafAnalysis analysis_;
+  // Scratch space.
   Halves halves_, others_;
   Formula expanded_;
-  // Of the cell that is refined.
-  bool is_small_ = false;
-  Across across_ = Across::kSame;
   std::vector<const Cell*> pending_;
-  /// Counters wrap: a cell that one refiner opened may be refined by another.
-  SubdivideStats stats_;
 };
 
 /// All refiners of a tree, and so all its cells.

@@ -11,8 +11,8 @@ RefinerPool::RefinerPool(const Scene& scene, const SubdivideSettings& settings,
   Refiner& refiner = take();
   const CellLink whole = refiner.open_region();
   root().bits.store(whole.bits(), std::memory_order_relaxed);
-  ++refiner.stats_.cells[size_t(whole.kind())];
-  refiner.stats_.memory_bytes += sizeof(Cell);
+  ++refiner.store_.stats.cells[size_t(whole.kind())];
+  refiner.store_.stats.memory_bytes += sizeof(Cell);
   give(refiner);
 }
 
@@ -36,7 +36,7 @@ void RefinerPool::give(Refiner& refiner) {
 SubdivideStats RefinerPool::stats() const {
   SubdivideStats sum;
   for (const auto& refiner : all_) {
-    const SubdivideStats& part = refiner->stats_;
+    const SubdivideStats& part = refiner->store_.stats;
     for (size_t kind = 0; kind < sum.cells.size(); ++kind) sum.cells[kind] += part.cells[kind];
     if (sum.leaves_by_size.size() < part.leaves_by_size.size())
       sum.leaves_by_size.resize(part.leaves_by_size.size());

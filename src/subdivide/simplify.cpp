@@ -222,10 +222,13 @@ Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, Expan
   while (true) {
     // One operand. Primitives beside the cell are found many at a time, and those that say nothing
     // in their group there are passed over together.
-    if (in_batches && i >= batch_end) {
+    // Without batches the batch stays empty, and each token is the first of it.
+    if (i >= batch_end) {
       batch_first = i;
-      batch_end = std::min(uint32_t(in.size()), i + UnitBoxes::kBatch);
-      batch = boxes_.look_at(in.subspan(i, batch_end - i), cell);
+      if (in_batches) {
+        batch_end = std::min(uint32_t(in.size()), i + UnitBoxes::kBatch);
+        batch = boxes_.look_at(in.subspan(i, batch_end - i), cell);
+      }
     }
     if (!open_.empty()) {
       const Open& group = open_.back();

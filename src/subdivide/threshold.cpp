@@ -37,9 +37,9 @@ class Mover {
     CellLink link = at.cell->link();
     if (there != kNowhere) {
       const bool small = is_small_({at.box.lo + origin_, at.box.hi + origin_});
-      if (small == bool(there & kIfSmall)) {
-        const CellLink other(there & ~kIfSmall);
-        there = link.bits() | (small ? 0 : kIfSmall);
+      if (small == bool(there & CellLink::kIfSmall)) {
+        const CellLink other(there & ~CellLink::kIfSmall);
+        there = link.bits() | (small ? 0 : CellLink::kIfSmall);
         at.cell->bits.store(other.bits(), std::memory_order_release);
         --kinds_[size_t(link.kind())];
         ++kinds_[size_t(other.kind())];
@@ -111,7 +111,7 @@ MovedThreshold RefinerPool::move(IsSmall is_small, const Workers& workers) {
     sum.opened += mover.moved().opened;
     sum.closed += mover.moved().closed;
     for (size_t kind = 0; kind < kCellKinds; ++kind)
-      refiner.stats_.cells[kind] += mover.kinds()[kind];
+      refiner.store_.stats.cells[kind] += mover.kinds()[kind];
   });
   give(refiner);
   const SubdivideStats all = stats();

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/instruction_set.h"
+
 // This file is compiled once for every instruction set; see foreach_target.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "subdivide/unit_boxes.cpp"
@@ -60,7 +62,7 @@ HWY_AFTER_NAMESPACE();
 namespace whittle {
 namespace {
 
-HWY_EXPORT(look_at);
+WHITTLE_EXPORT(look_at);
 
 /// Of the coordinates' size; the arithmetic takes some ten roundings of 2^-24 of it.
 constexpr double kLost = 2e-6;
@@ -132,7 +134,7 @@ UnitBoxes::Batch UnitBoxes::look_at(std::span<const Token> tokens, const CellBox
     box[3 + axis] = float(cell.half[axis]);
   }
   Batch batch =
-      HWY_DYNAMIC_DISPATCH(look_at)(units, reinterpret_cast<const float*>(entries_.data()), box);
+      WHITTLE_DISPATCH(look_at)(units, reinterpret_cast<const float*>(entries_.data()), box);
   batch.negated = negated;
   // In a cell so small that what is lost here counts, only proofs do.
   if (max_component(cell.half) < kSmallCell * region_edge_) batch.balls = 0;

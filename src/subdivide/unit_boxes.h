@@ -1,5 +1,5 @@
-// Where all primitives are, packed so that many are held against a cell at once: what is beside a
-// cell, which in a large model is nearly all there is, costs next to nothing.
+// The bounds of all primitives, packed so that several are tested against a cell at once. In a
+// large model nearly all primitives lie outside a cell; here that is found out at little cost.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,14 @@ namespace whittle {
 
 class UnitBoxes {
  public:
-  /// Tokens that are looked at together.
+  /// Tokens that are looked at in one go.
   static constexpr uint32_t kBatch = 16;
+  static_assert(kBatch <= 32, "a bit each in a Batch");
 
   /// Made on all workers, if there are any.
   explicit UnitBoxes(const Scene& scene, const Workers* workers = nullptr);
 
-  /// What is known of the primitives of some tokens, one bit a token; none for groups.
+  /// What is known of the primitives of a batch's tokens, one bit a token; none for groups.
   struct Batch {
     uint32_t beside = 0;   ///< nothing of the primitive is in the cell
     uint32_t within = 0;   ///< all of the cell is in it
@@ -31,8 +32,9 @@ class UnitBoxes {
   /// At most kBatch tokens. The instruction set is chosen at run time; all give the same bits.
   Batch look_at(std::span<const Token> tokens, const CellBox& cell) const;
 
-  /// Whether look_at() finds out more than it takes, for a formula of so many tokens. Short ones
-  /// are of primitives that nearly all cross the cell; but of balls it tells that, too.
+  /// Whether look_at() saves more time than it costs, for a formula of so many tokens. In a short
+  /// formula nearly all primitives cross the cell, and there is little to save. Balls are the
+  /// exception: look_at() decides them completely.
   bool are_worth_it(size_t tokens) const {
     constexpr size_t kLong = 32;
     return tokens > kLong || 2 * balls_ > entries_.size();
@@ -40,8 +42,8 @@ class UnitBoxes {
 
  private:
   static constexpr float kEverywhere = std::numeric_limits<float>::infinity();
-  /// Single precision, what holds the primitive rounded up and what it holds rounded down by more
-  /// than all arithmetic with it can lose.
+  /// In single precision. What holds the primitive is rounded up, and what the primitive holds is
+  /// rounded down, by more than all arithmetic with it can lose.
   struct Entry {
     float center[3] = {};  ///< a box that holds it
     float half[3] = {kEverywhere, kEverywhere, kEverywhere};

@@ -10,7 +10,7 @@ class FlatWall : public Tracer {
  public:
   explicit FlatWall(float at) : at_(at) {}
   const char* name() const override { return "wall"; }
-  Frame render(const Camera&, const Progress&) override { return {}; }
+  Frame render(const Camera&, const RenderControl&) override { return {}; }
   void probe(const Camera& camera, std::span<const PixelPosition> positions,
              std::span<Hit> hits) override {
     for (size_t i = 0; i < positions.size(); ++i) {
@@ -19,6 +19,7 @@ class FlatWall : public Tracer {
       if (at_ > 0) hits[i] = {float(at_ / ray.direction.y), 1, {0, -1, 0}};
     }
   }
+  void cast(std::span<const Ray>, std::span<Hit>) override {}
 
  private:
   float at_;

@@ -1,7 +1,7 @@
 // What is seen of a drawing: the plane z = 0 where the drawing's slab meets it.
 //
-// Any backend can draw it. A ray of the camera meets the plane at one point; whether something is
-// there, and whose it is, the backend says when it looks at the slab straight from above.
+// Any backend can draw it. A ray meets the plane at one point. What is there, a ray of the backend
+// says that comes straight from above.
 #pragma once
 
 #include <vector>
@@ -20,28 +20,31 @@ class DrawingTracer final : public Tracer {
 
   const char* name() const override { return slab_.name(); }
   /// Normals point to the eye's side of the plane.
-  Frame render(const Camera& camera, const Progress& progress = {}) override;
+  Frame render(const Camera& camera, const RenderControl& control = {}) override;
   void probe(const Camera& camera, std::span<const PixelPosition> positions,
              std::span<Hit> hits) override;
+  void cast(std::span<const Ray> rays, std::span<Hit> hits) override;
   Status status() const override { return slab_.status(); }
 
  private:
-  /// Of a ray: where it meets the plane.
+  /// Where a ray meets the plane.
   struct Meeting {
     Vec2 point;
     float distance = 0;
     float normal = 0;  ///< its z; 0: it does not meet the plane where the drawing is
   };
 
-  void meet(const Camera& camera, std::span<const PixelPosition> positions);
-  Camera look_down() const;
+  Meeting meet(const Ray& ray) const;
+  /// Hits of `count` rays, of which ray_of(i) is one.
+  template <class RayOf>
+  void look(size_t count, const RayOf& ray_of, std::span<Hit> hits);
 
   Tracer& slab_;
   const Box box_;
   const Workers& workers_;
   // Scratch space.
   std::vector<Meeting> meetings_;
-  std::vector<PixelPosition> places_;  ///< seen from above
+  std::vector<Ray> down_;  ///< one for each meeting on the plane
   std::vector<Hit> found_;
 };
 

@@ -3,10 +3,12 @@
 
 #include <functional>
 #include <span>
+#include <stop_token>
 
 #include "base/result.h"
 #include "trace/camera.h"
 #include "trace/frame.h"
+#include "trace/pixel_rect.h"
 
 namespace whittle {
 
@@ -18,6 +20,19 @@ struct PixelPosition {
 /// Told the share of the work that is done, 0..1, now and then, from any thread; may be empty.
 using Progress = std::function<void(double)>;
 
+/// Told that the frame's hits within the rectangle are known, or more of them: one that hits stays
+/// what it is, one that does not may become one until render() returns. From any thread, several
+/// at a time. Nothing outside of the rectangle may be read.
+using PartSeen = std::function<void(const Frame&, const PixelRect&)>;
+
+/// What render() is told, and tells, while it runs. All of it may be left out.
+struct RenderControl {
+  /// Once a stop is requested, render() returns soon, and its frame is of no use.
+  std::stop_token stop{};
+  Progress progress{};
+  PartSeen part_seen{};
+};
+
 /// A backend bound to one model. Backends do not know one another; the model and everything made
 /// from it must outlive the tracer. Calls may come from one thread at a time.
 class Tracer {
@@ -25,10 +40,13 @@ class Tracer {
   virtual ~Tracer() = default;
   virtual const char* name() const = 0;
   /// Facts at every pixel centre.
-  virtual Frame render(const Camera& camera, const Progress& progress = {}) = 0;
+  virtual Frame render(const Camera& camera, const RenderControl& control = {}) = 0;
   /// Facts at any positions; hits.size() == positions.size().
   virtual void probe(const Camera& camera, std::span<const PixelPosition> positions,
                      std::span<Hit> hits) = 0;
+  /// Facts for any rays; hits.size() == rays.size(). The fastest are those whose neighbours in the
+  /// row go nearly the same way.
+  virtual void cast(std::span<const Ray> rays, std::span<Hit> hits) = 0;
   /// What the machine refused, if it did; then all facts since are of no use.
   virtual Status status() const { return Done{}; }
 };

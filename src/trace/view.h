@@ -6,8 +6,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <string_view>
 
 #include "base/box.h"
 #include "base/result.h"
@@ -38,15 +36,8 @@ struct ViewOptions {
   int width = 512, height = 512;      ///< pixels, positive
 };
 
-/// Reads the text of --camera into `base`: seven numbers `tx,ty,tz,rx,ry,rz,d` (target, degrees,
-/// distance) or six `ex,ey,ez,cx,cy,cz` (eye and centre). Anything else is a kUsage error.
-Result<ViewOptions> parse_camera(std::string_view text, ViewOptions base = {});
-
 /// Whether a camera is given: any of target, rotation_degrees, distance, eye and center.
 bool gives_camera(const ViewOptions& options);
-
-/// A given camera as --camera has it.
-std::string camera_text(const ViewOptions& options);
 
 /// A kUsage error for a negative distance, unless view-all replaces it.
 Status check_view(const ViewOptions& options);

@@ -11,16 +11,9 @@
 #include "image/shade.h"
 #include "shape/fragments.h"
 #include "subdivide/subdivide.h"
-#include "trace/vulkan/raster_settings.h"
+#include "whittle/options.h"
 
 namespace whittle {
-
-enum class Backend {
-  kAuto,          ///< the fastest that works here
-  kCpu,           ///< cells, walked by every ray
-  kVulkanRaster,  ///< cells, rasterised and solved on a Vulkan device
-  kOracle,        ///< the reference: exact, and slow
-};
 
 /// What a PNG shows.
 enum class Pass { kColor, kDepth, kNormal, kId };

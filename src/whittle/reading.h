@@ -2,12 +2,25 @@
 #pragma once
 
 #include "base/box.h"
+#include "image/style.h"
 #include "model/model.h"
+#include "shape/fragments.h"
 
 namespace whittle {
 
 /// The tight box of a solid (subdivide/solid_bounds.h), for ReadOptions::solid_box; of one without
 /// end, or too large to be lowered, its bounds.
 Box tight_box(const Model& model);
+
+/// The curves for pictures of that style, where these were chosen.
+constexpr Curves curves_in_style(Style style, Curves chosen) {
+  const bool is_openscads = style == Style::kOpenscad && chosen != Curves::kSmooth;
+  return is_openscads ? Curves::kOpenscad2021 : chosen;
+}
+
+/// Whether drawings need their outlines for pictures with these curves.
+constexpr bool has_outlines(Curves in_style) {
+  return in_style == Curves::kOpenscad2021;
+}
 
 }  // namespace whittle

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/timing.h"
@@ -21,7 +22,6 @@
 #include "trace/drawing_tracer.h"
 #include "trace/oracle/oracle.h"
 #include "trace/pixel_threshold.h"
-#include "trace/vulkan/raster.h"
 
 namespace whittle {
 namespace {
@@ -53,6 +53,7 @@ struct Renderer::State {
   Workers workers;
   std::vector<Appearance> looks;
   StageTimes times;
+  std::optional<Box> framed;  ///< made when a camera first asks
   // In the order in which they are made from one another.
   Scene scene;
   std::optional<CutFaces> cut_faces;  ///< made when a style first asks
@@ -61,10 +62,11 @@ struct Renderer::State {
   double cells_rays = 0;  ///< for how many rays they were made
   std::optional<Camera> looked_from;  ///< the last camera that was asked how closely it looks
   std::unique_ptr<Tracer> scout;      ///< made when a camera may look more closely
-  std::unique_ptr<Tracer> tracer;
+  std::variant<std::monostate, std::unique_ptr<Tracer>, std::unique_ptr<CpuTracer>,
+               std::unique_ptr<RasterTracer>>
+      backend;                             ///< of plain tracers there is the oracle's
+  Tracer* tracer = nullptr;                ///< the backend's; null: there is none
   std::unique_ptr<DrawingTracer> drawing;  ///< over the tracer, if the model is one
-  CpuTracer* cpu = nullptr;                ///< the tracer, if it is that one
-  RasterTracer* raster = nullptr;          ///< or that one
   Refine refine = Refine::kWhereRaysCome;
   bool is_auto = false;  ///< nobody chose the backend
   std::shared_ptr<RasterDevice> device;
@@ -78,6 +80,11 @@ struct Renderer::State {
   Status make_tracer(const Camera& camera);
   Status make_tracer(const Camera& camera, double rays);
   Status make_backend(const Camera& camera, double rays);
+  template <class T>
+  void use(std::unique_ptr<T> made) {
+    tracer = made.get();
+    backend = std::move(made);
+  }
   /// What pictures are made with.
   Tracer& seen();
   /// With a pixel threshold: makes the cells what they are for another camera. And makes finer ones
@@ -139,12 +146,12 @@ Camera Renderer::camera(const ViewOptions& options, GimbalView* view) {
   State& s = *state_;
   const FileView& file = s.model.view;
   const Stopwatch watch;
-  Box framed;
-  if (frames_the_solid(options, file)) {
+  if (!s.framed && frames_the_solid(options, file)) {
     const SolidBounds solid = solid_bounds(s.scene, s.settings.threads);
-    framed = seen_box(s.model, solid.bounded ? solid.box : bounds(s.model).box);
+    s.framed = seen_box(s.model, solid.bounded ? solid.box : bounds(s.model).box);
   }
   s.times.frame = watch.milliseconds();
+  const Box framed = s.framed.value_or(Box{});
   if (view) *view = gimbal_view(options, file, framed);
   return make_camera(options, file, framed);
 }
@@ -156,9 +163,8 @@ Tracer& Renderer::State::seen() {
 
 void Renderer::State::discard() {
   drawing.reset();
-  tracer.reset();
-  cpu = nullptr;
-  raster = nullptr;
+  tracer = nullptr;
+  backend = {};
   scout.reset();
   looked_from.reset();
   cells.reset();
@@ -179,7 +185,7 @@ Status Renderer::State::make_tracer(const Camera& camera, double rays) {
 Status Renderer::State::make_backend(const Camera& camera, double rays) {
   discard();
   if (settings.backend == Backend::kOracle) {
-    tracer = make_oracle_tracer(model, settings.threads);
+    use(make_oracle_tracer(model, settings.threads));
     return Done{};
   }
   const Stopwatch watch;
@@ -205,13 +211,10 @@ Status Renderer::State::make_backend(const Camera& camera, double rays) {
     Result<std::unique_ptr<RasterTracer>> made =
         make_raster_tracer(device, scene, *cells, second_look, settings.threads);
     if (!made) return made.error();
-    raster = made->get();
-    tracer = *std::move(made);
+    use(*std::move(made));
     times.send = sending.milliseconds();
   } else {
-    std::unique_ptr<CpuTracer> made = make_cpu_tracer(scene, *cells, settings.threads);
-    cpu = made.get();
-    tracer = std::move(made);
+    use(make_cpu_tracer(scene, *cells, settings.threads));
   }
   return Done{};
 }
@@ -268,22 +271,23 @@ void Renderer::discard() {
   state_->discard();
 }
 
-Result<Frame> Renderer::trace(const Camera& camera, const Progress& progress) {
+Result<Frame> Renderer::trace(const Camera& camera, const RenderControl& control) {
   if (const Status looks = state_->look_from(camera);
       !looks && !state_->falls_back(looks.error(), camera))
     return looks.error();
   const Stopwatch watch;
-  Frame frame = state_->seen().render(camera, progress);
+  Frame frame = state_->seen().render(camera, control);
   if (const Status status = tracer().status(); !status) {
     if (!state_->falls_back(status.error(), camera)) return status.error();
-    frame = state_->seen().render(camera, progress);
+    frame = state_->seen().render(camera, control);
   }
   state_->times.trace = watch.milliseconds();
   return frame;
 }
 
 Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
-                                const ShadeSettings& settings, int antialias) {
+                                const ShadeSettings& settings, int antialias,
+                                const std::stop_token& stop) {
   State& s = *state_;
   if (const Status looks = s.look_from(camera); !looks && !s.falls_back(looks.error(), camera))
     return looks.error();
@@ -298,7 +302,7 @@ Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
   // On a plane there are none.
   if (look.shadows && !s.model.drawing) look.casters = view_region(bounds(s.model));
   const auto shaded = [&] {
-    return shade_antialiased(s.seen(), camera, frame, s.looks, look, antialias, s.workers);
+    return shade_antialiased(s.seen(), camera, frame, s.looks, look, antialias, s.workers, stop);
   };
   Picture picture = shaded();
   if (const Status status = tracer().status(); !status) {
@@ -313,9 +317,24 @@ Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
   return picture;
 }
 
-Tracer& Renderer::tracer() {
+Status Renderer::cast(std::span<const Ray> rays, std::span<Hit> hits) {
+  state_->seen().cast(rays, hits);
+  return tracer().status();
+}
+
+Tracer& Renderer::tracer() const {
   WHITTLE_CHECK(state_->tracer);
   return *state_->tracer;
+}
+
+CpuTracer* Renderer::cpu_tracer() const {
+  const auto* cpu = std::get_if<std::unique_ptr<CpuTracer>>(&state_->backend);
+  return cpu != nullptr ? cpu->get() : nullptr;
+}
+
+RasterTracer* Renderer::raster_tracer() const {
+  const auto* raster = std::get_if<std::unique_ptr<RasterTracer>>(&state_->backend);
+  return raster != nullptr ? raster->get() : nullptr;
 }
 
 Backend Renderer::backend() const {
@@ -332,14 +351,6 @@ const Scene* Renderer::scene() const {
 
 const CellTree* Renderer::cells() const {
   return state_->cells ? &*state_->cells : nullptr;
-}
-
-TraceStats Renderer::trace_stats() const {
-  return state_->cpu ? state_->cpu->stats() : TraceStats{};
-}
-
-RasterStats Renderer::raster_stats() const {
-  return state_->raster ? state_->raster->stats() : RasterStats{};
 }
 
 const StageTimes& Renderer::times() const {

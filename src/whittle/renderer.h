@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <stop_token>
 #include <string>
 
 #include "base/result.h"
@@ -14,7 +16,7 @@
 #include "trace/cpu/cpu.h"
 #include "trace/tracer.h"
 #include "trace/view.h"
-#include "trace/vulkan/raster_settings.h"
+#include "trace/vulkan/raster.h"
 #include "whittle/choices.h"
 
 namespace whittle {
@@ -92,11 +94,17 @@ class Renderer {
   /// Gives back what prepare() made; it may be called again.
   void discard();
   /// Precondition of all below: prepare() was called.
-  Result<Frame> trace(const Camera& camera, const Progress& progress = {});
+  /// Once a stop is requested, these two return soon, and what they return is of no use.
+  Result<Frame> trace(const Camera& camera, const RenderControl& control = {});
   Result<Picture> shade(const Frame& frame, const Camera& camera, const ShadeSettings& settings,
-                        int antialias);
+                        int antialias, const std::stop_token& stop = {});
+  /// Facts for any rays; hits.size() == rays.size().
+  Status cast(std::span<const Ray> rays, std::span<Hit> hits);
 
-  Tracer& tracer();
+  Tracer& tracer() const;
+  /// The tracer, if it is of that kind; else null.
+  CpuTracer* cpu_tracer() const;
+  RasterTracer* raster_tracer() const;
   /// The backend that is used; never kAuto.
   Backend backend() const;
   /// What the backend works on, as people read it; for kAuto also why it is not what was tried
@@ -105,10 +113,6 @@ class Renderer {
   /// Null with the oracle, which does not use it.
   const Scene* scene() const;
   const CellTree* cells() const;
-  /// All zero with the oracle.
-  TraceStats trace_stats() const;
-  /// Of the last picture; all zero unless vulkan-raster made it.
-  RasterStats raster_stats() const;
   const StageTimes& times() const;
 
  private:

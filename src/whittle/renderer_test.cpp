@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "io/read.h"
+#include "csg/read_csg.h"
 #include "model/instances.h"
 
 namespace whittle {
@@ -158,7 +158,7 @@ TEST(Renderer, TheOracleHasNeitherHalfSpacesNorCells) {
   EXPECT_STREQ(renderer->tracer().name(), "oracle");
   EXPECT_EQ(renderer->scene(), nullptr);
   EXPECT_EQ(renderer->cells(), nullptr);
-  EXPECT_EQ(renderer->trace_stats().rays, 0u);
+  EXPECT_EQ(renderer->cpu_tracer(), nullptr);
 }
 
 TEST(Renderer, StepsCanBeRepeated) {
@@ -170,7 +170,7 @@ TEST(Renderer, StepsCanBeRepeated) {
   for (int i = 0; i < 2; ++i) {
     ASSERT_TRUE(renderer->prepare(camera));
     const Frame frame = *renderer->trace(camera);
-    EXPECT_EQ(renderer->trace_stats().rays, uint64_t(24 * 24)) << "the tracer is a new one";
+    EXPECT_EQ(renderer->cpu_tracer()->stats().rays, uint64_t(24 * 24)) << "the tracer is a new one";
     pictures.push_back(*renderer->shade(frame, camera, {}, 4));
   }
   EXPECT_EQ(pictures[0].rgba, pictures[1].rgba);

@@ -13,11 +13,15 @@
 namespace {
 
 namespace fs = std::filesystem;
+using whittle::Backend;
+using whittle::Curves;
 using whittle::Failure;
 using whittle::LoadOptions;
 using whittle::Rendering;
 using whittle::RenderOptions;
+using whittle::SessionOptions;
 using whittle::Solid;
+using whittle::Style;
 using whittle::TestFolder;
 
 constexpr const char* kCube = "cube(0); cube(10, center = true);";
@@ -80,12 +84,32 @@ TEST(Solid, LoadsFilesAndSaysWhyNot) {
 }
 
 TEST(Solid, CurvesAreChosenWhenLoading) {
-  const auto normal_z = [](const char* curves) {
+  const auto normal_z = [](Curves curves) {
     const Solid ball = Solid::parse("sphere(10, $fn = 4);", "ball", {.curves = curves});
     return ball.render(from_above()).normal[3 * (10 * 31 + 20) + 2];
   };
-  EXPECT_EQ(normal_z("auto"), normal_z("facets"));
-  EXPECT_NE(normal_z("auto"), normal_z("smooth"));
+  EXPECT_EQ(normal_z(Curves::kAuto), normal_z(Curves::kFacets));
+  EXPECT_NE(normal_z(Curves::kAuto), normal_z(Curves::kSmooth));
+}
+
+TEST(Solid, AStyleBringsItsFacetsAlong) {
+  constexpr const char* kBall = "sphere(10);";
+  const RenderOptions look = from_above();
+  RenderOptions openscad = look;
+  openscad.style = Style::kOpenscad;
+  const Solid for_openscad = Solid::parse(kBall, "ball", {.style = Style::kOpenscad});
+  const Solid facets = Solid::parse(kBall, "ball", {.curves = Curves::kFacets});
+  EXPECT_EQ(for_openscad.render(look).rgba, facets.render(openscad).rgba);
+  EXPECT_NE(for_openscad.render(look).rgba, facets.render(look).rgba);
+  EXPECT_NE(for_openscad.render(look).rgba, Solid::parse(kBall).render(openscad).rgba);
+}
+
+TEST(Solid, KnowsWhereItsStatementsStand) {
+  const Solid solid = Solid::parse("cube(0);\ngroup() {\n  *sphere(1);\n  cube(10); }");
+  EXPECT_EQ(solid.statement_count(), 3u);
+  EXPECT_EQ(solid.place(3), (whittle::Place{4, 3}));
+  EXPECT_EQ(solid.place(2), std::nullopt) << "it was left out";
+  for (const std::uint32_t id : {0u, 4u, UINT32_MAX}) EXPECT_EQ(solid.place(id), std::nullopt);
 }
 
 TEST(Rendering, HoldsTheFactsOfEveryPixel) {
@@ -103,23 +127,19 @@ TEST(Rendering, HoldsTheFactsOfEveryPixel) {
   EXPECT_EQ(made.rgba[3], 255) << "the background is opaque";
   EXPECT_EQ(made.id[0], 0u);
   EXPECT_TRUE(std::isinf(made.distance[0]));
-  EXPECT_EQ(made.backend, "cpu");
+  EXPECT_EQ(made.backend, Backend::kCpu);
 }
 
 TEST(Rendering, DoesNotDependOnThreadsNorItsFactsOnTheBackend) {
   const Solid solid = Solid::parse("difference() { cube(10, center = true); sphere(6); }");
-  RenderOptions options;
-  options.width = options.height = 40;
-  options.threads = 1;
-  const Rendering one = solid.render(options);
-  options.threads = 3;
-  const Rendering three = solid.render(options);
+  const RenderOptions options{.width = 40, .height = 40};
+  const Rendering one = solid.render(options, {.threads = 1});
+  const Rendering three = solid.render(options, {.threads = 3});
   EXPECT_EQ(one.rgba, three.rgba);
   EXPECT_EQ(one.distance, three.distance);
   EXPECT_EQ(one.normal, three.normal);
-  options.backend = "oracle";
-  const Rendering oracle = solid.render(options);
-  EXPECT_EQ(oracle.backend, "oracle");
+  const Rendering oracle = solid.render(options, {.backend = Backend::kOracle});
+  EXPECT_EQ(oracle.backend, Backend::kOracle);
   size_t differing = 0;
   for (size_t i = 0; i < one.id.size(); ++i) differing += one.id[i] != oracle.id[i];
   EXPECT_LE(differing, 2u) << "rays along edges";
@@ -128,12 +148,10 @@ TEST(Rendering, DoesNotDependOnThreadsNorItsFactsOnTheBackend) {
 TEST(Rendering, DoesNotDependOnTheMemoryOfCells) {
   const Solid solid = Solid::parse(
       "difference() { cube(10, center = true); sphere(6); translate([5, 0, 0]) sphere(3); }");
-  RenderOptions options;
-  options.width = options.height = 40;
+  const RenderOptions options{.width = 40, .height = 40};
   const Rendering many = solid.render(options);
   for (const size_t bytes : {0u, 10'000u, 100'000u}) {
-    options.cell_memory = bytes;
-    const Rendering few = solid.render(options);
+    const Rendering few = solid.render(options, {.cell_memory = bytes});
     EXPECT_EQ(few.id, many.id) << bytes;
     EXPECT_EQ(few.rgba, many.rgba) << bytes;
   }
@@ -145,13 +163,13 @@ TEST(Solid, RefusesWhatPassesALimit) {
         failure_of([&] { Solid::parse("group() { cube([1, 2, 3]); }", "t", options); }).what());
   };
   LoadOptions depth, nodes, values, facets;
-  depth.most_depth = 0;
-  EXPECT_NE(refusal(depth).find("--limit depth"), std::string::npos);
-  nodes.most_nodes = 1;
-  EXPECT_NE(refusal(nodes).find("--limit nodes"), std::string::npos);
-  values.most_values = 3;
-  EXPECT_NE(refusal(values).find("--limit values"), std::string::npos);
-  facets.most_facets = 5;
+  depth.limits.depth = 0;
+  EXPECT_NE(refusal(depth).find("the limit 'depth' can be raised"), std::string::npos);
+  nodes.limits.nodes = 1;
+  EXPECT_NE(refusal(nodes).find("the limit 'nodes' can be raised"), std::string::npos);
+  values.limits.values = 3;
+  EXPECT_NE(refusal(values).find("the limit 'values' can be raised"), std::string::npos);
+  facets.limits.facets = 5;
   EXPECT_NO_THROW(Solid::parse("cube(1);", "t", facets));
   EXPECT_THROW(Solid::parse("cylinder($fn = 4);", "t", facets), Failure);
 }
@@ -173,17 +191,17 @@ TEST(Rendering, RefusesOptionsThatDoNotExist) {
     EXPECT_EQ(failure.cause(), Failure::Cause::kUsage) << failure.what();
     return std::string(failure.what());
   };
-  EXPECT_NE(refused([](auto& o) { o.backend = "gpu"; }).find("there are: auto"), std::string::npos);
-  EXPECT_NE(refused([](auto& o) { o.style = "x"; }).find("studio"), std::string::npos);
   EXPECT_NE(refused([](auto& o) { o.color_scheme = "x"; }).find("Cornfield"), std::string::npos);
   refused([](auto& o) { o.width = 0; });
   refused([](auto& o) { o.height = 70000; });
-  refused([](auto& o) { o.threads = -1; });
   refused([](auto& o) { o.antialias = 17; });
   refused([](auto& o) { o.fov_degrees = 180; });
   refused([](auto& o) { o.distance = -1; });
   refused([](auto& o) { o.eye = {NAN, 0, 0}; });
-  EXPECT_EQ(failure_of([] { (void)Solid::parse("", "x", {.curves = "x"}); }).cause(),
+  refused([](auto& o) { o.shadows = true, o.style = Style::kOpenscad; });
+  EXPECT_EQ(failure_of([] { (void)Solid::parse("", "x", {.threads = -1}); }).cause(),
+            Failure::Cause::kUsage);
+  EXPECT_EQ(failure_of([&] { (void)solid.render({}, {.threads = 1025}); }).cause(),
             Failure::Cause::kUsage);
 }
 

@@ -14,7 +14,7 @@
 
 #include "agreement/cpu_subject.h"
 #include "agreement/raster_subject.h"
-#include "io/read.h"
+#include "host/read_file.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"
 #include "trace/oracle/oracle.h"

@@ -6,7 +6,9 @@
 #include <filesystem>
 
 #include "agreement/cpu_subject.h"
-#include "io/read.h"
+#include "host/read_file.h"
+#include "model/instances.h"
+#include "support/casting_tracer.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"
 #include "support/zoo.h"
@@ -155,6 +157,25 @@ TEST(CpuAgreement, CoincidentAndNearlyCoincidentRandomTrees) {
   }
   EXPECT_GT(sum.hits, sum.pixels / 5);
   EXPECT_LT(sum.ambiguous, sum.pixels / 20);
+}
+
+TEST(CpuAgreement, RaysThatAreNoCameras) {
+  AgreementReport sum;
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Model model = model_of(random_tree(
+        seed, {.primitives = 12, .coincident = seed % 3 == 0, .halfspaces = seed % 5 == 0}));
+    const auto oracle = make_oracle_tracer(model);
+    CpuSubject cpu(model, leaf_size(kLeafSizes[seed % 4]));
+    CastingTracer casting(*cpu.tracer, bounds(model).box.diagonal());
+    for (const Camera& camera : cameras_for(model, 32, 24)) {
+      const AgreementReport report = check_agreement(model, casting, *oracle, camera);
+      EXPECT_EQ(report.unexplained, 0) << report.first_difference;
+      EXPECT_EQ(report.ambiguous_unmatched, 0) << report.first_difference;
+      sum += report;
+    }
+  }
+  EXPECT_GT(sum.hits, sum.pixels / 5);
 }
 
 TEST(CpuAgreement, SameBytesLazilyOnOneAndEagerlyOnManyThreads) {

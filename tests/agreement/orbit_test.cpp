@@ -6,7 +6,7 @@
 #include <cstring>
 #include <string>
 
-#include "io/read.h"
+#include "host/read_file.h"
 #include "whittle/paper_settings_for_test.h"
 #include "whittle/renderer.h"
 

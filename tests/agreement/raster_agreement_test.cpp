@@ -12,8 +12,9 @@
 #include <filesystem>
 
 #include "agreement/raster_subject.h"
-#include "io/read.h"
+#include "host/read_file.h"
 #include "model/instances.h"
+#include "support/casting_tracer.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"
 #include "support/zoo.h"
@@ -48,7 +49,7 @@ class Pair final : public Tracer {
  public:
   Pair(Tracer& first, Tracer& second) : first_(first), second_(second) {}
   const char* name() const override { return "pair"; }
-  Frame render(const Camera& camera, const Progress&) override {
+  Frame render(const Camera& camera, const RenderControl&) override {
     Frame frame = first_.render(camera, {});
     EXPECT_TRUE(same_bytes(frame, second_.render(camera, {})));
     return frame;
@@ -57,6 +58,7 @@ class Pair final : public Tracer {
              std::span<Hit> hits) override {
     first_.probe(camera, positions, hits);
   }
+  void cast(std::span<const Ray> rays, std::span<Hit> hits) override { first_.cast(rays, hits); }
 
  private:
   Tracer &first_, &second_;
@@ -142,7 +144,7 @@ class ProbingTracer final : public Tracer {
   static constexpr int kFiner = 4;
   explicit ProbingTracer(Tracer& inner) : inner_(inner) {}
   const char* name() const override { return "probing"; }
-  Frame render(const Camera& camera, const Progress&) override {
+  Frame render(const Camera& camera, const RenderControl&) override {
     Frame frame(camera.width, camera.height);
     Camera coarse = camera;
     coarse.width /= kFiner, coarse.height /= kFiner;
@@ -157,6 +159,7 @@ class ProbingTracer final : public Tracer {
              std::span<Hit> hits) override {
     inner_.probe(camera, positions, hits);
   }
+  void cast(std::span<const Ray> rays, std::span<Hit> hits) override { inner_.cast(rays, hits); }
 
  private:
   Tracer& inner_;
@@ -174,6 +177,16 @@ TEST_F(RasterAgreement, ProbesAnywhereInAPixel) {
       hits += compare(model, probing, probing_other, *oracle, camera).hits;
   }
   EXPECT_GT(hits, 10000);
+}
+
+TEST_F(RasterAgreement, RaysThatAreNoCameras) {
+  const Model model = example("cheese100.csg");
+  const auto oracle = make_oracle_tracer(model);
+  RasterSubject subject(device, model, leaf_size(6)), other(unified, model, leaf_size(6), true);
+  const double reach = bounds(model).box.diagonal();
+  CastingTracer casting(*subject.tracer, reach), casting_other(*other.tracer, reach);
+  for (const Camera& camera : cameras_for(model, 64, 48))
+    EXPECT_GT(compare(model, casting, casting_other, *oracle, camera).hits, 300);
 }
 
 TEST_F(RasterAgreement, Zoo) {

@@ -12,7 +12,7 @@
 #include "support/read_text.h"
 #include "support/zoo.h"
 #include "trace/oracle/oracle.h"
-#include "trace/view.h"
+#include "trace/view_for_test.h"
 #if WHITTLE_HAS_VULKAN
 #include "agreement/raster_subject.h"
 #endif
@@ -59,7 +59,7 @@ constexpr const char* kBallOverPlate =
     "translate([-30, -30, -1]) cube([60, 60, 1]); translate([2, -1, 6]) sphere(3);";
 
 Camera from_above(int size) {
-  ViewOptions options = *parse_camera("0,0,0,0,0,0,150");
+  ViewOptions options = view_of({0, 0, 0, 0, 0, 0, 150});
   options.width = options.height = size;
   return make_camera(options, {}, {});
 }

@@ -17,7 +17,7 @@ class FormulaTracer final : public Tracer {
  public:
   explicit FormulaTracer(RayFormula formula) : formula_(std::move(formula)) {}
   const char* name() const override { return "formula"; }
-  Frame render(const Camera& camera, const Progress&) override {
+  Frame render(const Camera& camera, const RenderControl&) override {
     Frame frame(camera.width, camera.height);
     for (int y = 0; y < camera.height; ++y)
       for (int x = 0; x < camera.width; ++x) frame.at(x, y) = trace(camera.ray(x + 0.5, y + 0.5));
@@ -27,6 +27,9 @@ class FormulaTracer final : public Tracer {
              std::span<Hit> hits) override {
     for (size_t i = 0; i < hits.size(); ++i)
       hits[i] = trace(camera.ray(double(positions[i].x), double(positions[i].y)));
+  }
+  void cast(std::span<const Ray> rays, std::span<Hit> hits) override {
+    for (size_t i = 0; i < hits.size(); ++i) hits[i] = trace(rays[i]);
   }
 
  private:

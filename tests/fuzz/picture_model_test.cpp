@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "io/read.h"
+#include "csg/read_csg.h"
 #include "lower/lower.h"
 #include "model/instances.h"
 #include "support/agreement.h"

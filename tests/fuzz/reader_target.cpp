@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "csg/read_csg.h"
 #include "fuzz/require.h"
 #include "fuzz/target.h"
-#include "io/read.h"
 #include "lower/lower.h"
 #include "model/instances.h"
 #include "shape/fragments.h"
@@ -25,7 +25,6 @@ ReadOptions small_limits(Curves curves) {
       .curves = curves,
       .limits = {.bytes = 1 << 20, .depth = 3000, .nodes = 5000, .values = 20000, .facets = 3000},
       // Without a folder: no files are read.
-      .folder = std::nullopt,
       .outlines = true};
 }
 

@@ -24,6 +24,6 @@ must_work(${CMAKE_COMMAND} -G ${generator} -S ${CMAKE_CURRENT_LIST_DIR}/consumer
           -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_CXX_COMPILER=${compiler} -D example=${example})
 must_work(${CMAKE_COMMAND} --build consumer)
 must_work(consumer/consumer ${model})
-if(NOT output MATCHES "seen: [1-9]")
+if(NOT output MATCHES "seen: primitive [1-9][0-9]*, line [1-9][0-9]*\nstopped")
   message(FATAL_ERROR "the example said: ${output}")
 endif()

@@ -6,6 +6,7 @@
 #include <ostream>
 #include <string>
 
+#include "host/read_file.h"
 #include "support/agreement.h"
 #include "support/read_text.h"
 #include "trace/oracle/oracle.h"
@@ -106,7 +107,7 @@ struct Work {
 Work work_of(Renderer& renderer, const Camera& camera) {
   EXPECT_TRUE(renderer.prepare(camera));
   EXPECT_TRUE(renderer.trace(camera));
-  const TraceStats trace = renderer.trace_stats();
+  const TraceStats trace = renderer.cpu_tracer()->stats();
   const SubdivideStats cells = statistics_of(*renderer.cells());
   const auto rays = double(trace.rays);
   return {cells.leaves_by_size.size() - 1, double(trace.cells) / rays, double(trace.leaves) / rays,

@@ -12,7 +12,7 @@
 
 #include "agreement/cpu_subject.h"
 #include "base/workers.h"
-#include "io/generate.h"
+#include "generate/generate.h"
 #include "numbers/accuracy.h"
 #include "support/read_text.h"
 

@@ -11,11 +11,11 @@
 
 #include "agreement/cpu_subject.h"
 #include "base/folder_for_test.h"
+#include "csg/read_csg.h"
+#include "generate/generate.h"
 #include "image/antialias.h"
 #include "image/png.h"
 #include "image/pov.h"
-#include "io/generate.h"
-#include "io/read.h"
 #include "model/instances.h"
 #include "trace/view.h"
 

@@ -18,14 +18,18 @@ class AdaptedTracer final : public Tracer {
       : inner_(&inner), change_camera_(std::move(camera)), change_hit_(std::move(hit)) {}
 
   const char* name() const override { return "adapted"; }
-  Frame render(const Camera& camera, const Progress& progress) override {
-    Frame frame = inner_->render(change_camera_ ? change_camera_(camera) : camera, progress);
+  Frame render(const Camera& camera, const RenderControl& control) override {
+    Frame frame = inner_->render(change_camera_ ? change_camera_(camera) : camera, control);
     change(frame.hits);
     return frame;
   }
   void probe(const Camera& camera, std::span<const PixelPosition> positions,
              std::span<Hit> hits) override {
     inner_->probe(change_camera_ ? change_camera_(camera) : camera, positions, hits);
+    change(hits);
+  }
+  void cast(std::span<const Ray> rays, std::span<Hit> hits) override {
+    inner_->cast(rays, hits);
     change(hits);
   }
 

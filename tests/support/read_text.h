@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "base/result.h"
-#include "io/read.h"
+#include "csg/read_csg.h"
 
 namespace whittle {
 

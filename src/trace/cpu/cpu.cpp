@@ -56,8 +56,8 @@ class CpuTracerImpl final : public CpuTracer {
 
   const char* name() const override { return "cpu"; }
 
-  Frame render(const Camera& camera, const Progress& progress) override {
-    return frame_of(camera, progress, [&](const TileRays& rays, size_t, LaneScratch& scratch) {
+  Frame render(const Camera& camera, const RenderControl& control) override {
+    return frame_of(camera, control, [&](const TileRays& rays, size_t, LaneScratch& scratch) {
       trace_lanes(lanes_, camera, rays.positions(), rays.places.data(), rays.hits, scratch);
     });
   }
@@ -92,6 +92,18 @@ class CpuTracerImpl final : public CpuTracer {
             trace_lanes(lanes_, camera, positions.subspan(i, std::min(kProbeRays, last - i)),
                         kInOrder.place.data(), &hits[i], scratch);
         });
+  }
+
+  void cast(std::span<const Ray> rays, std::span<Hit> hits) override {
+    if (lanes_.tree.region.is_empty()) {
+      std::fill(hits.begin(), hits.end(), Hit{});
+      return;
+    }
+    workers_.for_parts(rays.size(), kProbeChunk, [&](size_t first, size_t last, size_t worker) {
+      LaneScratch& scratch = scratches_.of(worker, lanes_);
+      for (size_t i = first; i < last; i += kProbeRays)
+        trace_lanes(lanes_, rays.subspan(i, std::min(kProbeRays, last - i)), &hits[i], scratch);
+    });
   }
 
   TraceStats stats() const override {
@@ -135,17 +147,17 @@ class CpuTracerImpl final : public CpuTracer {
 
   /// Calls trace(rays, tile's number, scratch) for all tiles in which something may be seen.
   template <class Trace>
-  Frame frame_of(const Camera& camera, const Progress& progress, const Trace& trace) {
+  Frame frame_of(const Camera& camera, const RenderControl& control, const Trace& trace) {
     Frame frame = Frame::unfilled(camera.width, camera.height);
     const PixelRect seen =
         lanes_.tree.region.is_empty() ? PixelRect{} : pixels_covering(camera, world_region());
     const int columns = parts(camera.width, kBlock), rows = parts(camera.height, kBlock);
     const int tile_columns = parts(camera.width, kTileWidth);
-    const auto trace_block = [&](int x0, int y0, LaneScratch& scratch) {
-      const int x1 = std::min(x0 + kBlock, camera.width), y1 = std::min(y0 + kBlock, camera.height);
-      for (int y = y0; y < y1; y += kTileHeight)
-        for (int x = x0; x < x1; x += kTileWidth) {
-          const PixelRect tile{x, y, std::min(x + kTileWidth, x1), std::min(y + kTileHeight, y1)};
+    const auto trace_block = [&](const PixelRect& block, LaneScratch& scratch) {
+      for (int y = block.y0; y < block.y1; y += kTileHeight)
+        for (int x = block.x0; x < block.x1; x += kTileWidth) {
+          const PixelRect tile{x, y, std::min(x + kTileWidth, block.x1),
+                               std::min(y + kTileHeight, block.y1)};
           if (tile.x0 < seen.x1 && tile.x1 > seen.x0 && tile.y0 < seen.y1 && tile.y1 > seen.y0)
             trace(TileRays(tile, frame), size_t(y / kTileHeight * tile_columns + x / kTileWidth),
                   scratch);
@@ -157,11 +169,16 @@ class CpuTracerImpl final : public CpuTracer {
     workers_.for_parts(size_t(columns) * size_t(rows), 1,
                        [&](size_t first, size_t last, size_t worker) {
                          LaneScratch& scratch = scratches_.of(worker, lanes_);
-                         for (int block = int(first); block < int(last); ++block) {
-                           trace_block(block % columns * kBlock, block / columns * kBlock, scratch);
+                         for (int i = int(first); i < int(last); ++i) {
+                           if (control.stop.stop_requested()) return;
+                           const int x = i % columns * kBlock, y = i / columns * kBlock;
+                           const PixelRect block{x, y, std::min(x + kBlock, camera.width),
+                                                 std::min(y + kBlock, camera.height)};
+                           trace_block(block, scratch);
+                           if (control.part_seen) control.part_seen(frame, block);
                            const int now = ++done;
-                           if (progress && now % columns == 0)
-                             progress(double(now) / (columns * rows));
+                           if (control.progress && now % columns == 0)
+                             control.progress(double(now) / (columns * rows));
                          }
                        });
     return frame;

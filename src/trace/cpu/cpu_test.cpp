@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <mutex>
+#include <stop_token>
 #include <string>
 
 #include "base/degrees.h"
@@ -224,6 +226,60 @@ TEST(Cpu, ProbesAndPicturesSeeTheSame) {
   model.tracer->probe(camera, positions, hits);
   EXPECT_EQ(std::memcmp(frame.hits.data(), hits.data(), hits.size() * sizeof(Hit)), 0);
   EXPECT_TRUE(frame.at(30, 21).hit());
+}
+
+TEST(Cpu, RaysOfACameraThatAreCastSeeWhatItSees) {
+  const Model model = model_of(random_tree(4, {.primitives = 30}));
+  const Scene scene = *lower(model);
+  const CellTree cells = subdivide(scene, {});
+  const auto tracer = make_cpu_tracer(scene, cells);
+  for (const Camera& camera : cameras_for(model, 75, 53)) {
+    const Frame frame = tracer->render(camera, {});
+    std::vector<Ray> rays;
+    for (int y = 0; y < camera.height; ++y)
+      for (int x = 0; x < camera.width; ++x) rays.push_back(camera.ray(x + 0.5, y + 0.5));
+    for_every_instruction_set([&] {
+      std::vector<Hit> hits(rays.size());
+      tracer->cast(rays, hits);
+      EXPECT_EQ(std::memcmp(frame.hits.data(), hits.data(), hits.size() * sizeof(Hit)), 0);
+    });
+  }
+}
+
+TEST(Cpu, EveryPartOfThePictureIsToldOnce) {
+  const Model model = model_of("sphere(10);");
+  const Scene scene = *lower(model);
+  const CellTree cells = subdivide(scene, {});
+  const auto tracer = make_cpu_tracer(scene, cells);
+  const Camera camera = cameras_for(model, 150, 70)[0];
+  std::mutex mutex;
+  Frame told(150, 70);
+  std::vector<int> times(150 * 70);
+  const PartSeen note = [&](const Frame& frame, const PixelRect& part) {
+    const std::lock_guard lock(mutex);
+    for (int y = part.y0; y < part.y1; ++y)
+      for (int x = part.x0; x < part.x1; ++x)
+        told.at(x, y) = frame.at(x, y), ++times[size_t(y * 150 + x)];
+  };
+  const Frame frame = tracer->render(camera, {.part_seen = note});
+  EXPECT_EQ(std::memcmp(frame.hits.data(), told.hits.data(), told.hits.size() * sizeof(Hit)), 0);
+  EXPECT_TRUE(std::ranges::all_of(times, [](int n) { return n == 1; }));
+}
+
+TEST(Cpu, StopsWhenItIsAskedTo) {
+  const Model model = model_of("sphere(10);");
+  const Scene scene = *lower(model);
+  const CellTree cells = subdivide(scene, {});
+  const auto tracer = make_cpu_tracer(scene, cells, 1);
+  const Camera camera = cameras_for(model, 150, 70)[0];
+  std::stop_source stop;
+  int parts = 0;
+  const PartSeen once = [&](const Frame&, const PixelRect&) {
+    ++parts;
+    stop.request_stop();
+  };
+  tracer->render(camera, {.stop = stop.get_token(), .part_seen = once});
+  EXPECT_EQ(parts, 1);
 }
 
 TEST(Cpu, WhatWasRecordedIsSeenAgain) {

@@ -16,10 +16,6 @@ namespace whittle {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// This far ahead a ray from an eye on a surface looks where it goes (a tip has no slope); a share
-/// of the region's longest edge.
-constexpr double kAhead = 1e-9;
-
 /// Calls `visit` with the kind of a half-space as a constant.
 template <class Visit>
 HWY_INLINE auto with_kind(AlongKind kind, const Visit& visit) {

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "base/instruction_set.h"
+
 // This file is compiled once for every instruction set; see foreach_target.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "trace/cpu/lanes.cpp"
@@ -275,7 +277,7 @@ class Walk {
   void leaf(CellLink cell, const Planes& planes, uint64_t packets) {
     Visitors& visitors = leaves_.visitors;
     visitors.count = 0;
-    if (cell.kind() >= CellKind::kConjunction) {
+    if (is_leaf(cell.kind())) {
       // It arrives while is worked out who passes.
       const char* const block = static_cast<const char*>(cell.target());
       hwy::Prefetch(block);
@@ -428,6 +430,18 @@ void trace_positions(const LaneScene& scene, const Camera& camera,
   });
 }
 
+void trace_rays(const LaneScene& scene, std::span<const Ray> all, Hit* hits, LaneScratch& scratch) {
+  scratch.stats.rays += all.size();
+  std::array<uint32_t, kTileRays> places;
+  for (uint32_t i = 0; i < kTileRays; ++i) places[i] = i;
+  for (size_t first = 0; first < all.size(); first += Tile::most_rays()) {
+    Tile tile;
+    tile.make_rays(scene, all.subspan(first, std::min(Tile::most_rays(), all.size() - first)));
+    Walk(scene, tile, scratch, 0, nullptr).all();
+    tile.write(scene, places.data(), hits + first);
+  }
+}
+
 void retrace_positions(const LaneScene& scene, const Camera& camera,
                        std::span<const PixelPosition> all_positions, const uint32_t* all_places,
                        Hit* hits, LaneScratch& scratch, const TileRecord& record) {
@@ -465,19 +479,25 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace whittle {
 
-HWY_EXPORT(trace_positions);
-HWY_EXPORT(retrace_positions);
+WHITTLE_EXPORT(trace_positions);
+WHITTLE_EXPORT(trace_rays);
+WHITTLE_EXPORT(retrace_positions);
 
 void trace_lanes(const LaneScene& scene, const Camera& camera,
                  std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
                  LaneScratch& scratch, TileRecord* record) {
-  HWY_DYNAMIC_DISPATCH(trace_positions)(scene, camera, positions, places, hits, scratch, record);
+  WHITTLE_DISPATCH(trace_positions)(scene, camera, positions, places, hits, scratch, record);
+}
+
+void trace_lanes(const LaneScene& scene, std::span<const Ray> rays, Hit* hits,
+                 LaneScratch& scratch) {
+  WHITTLE_DISPATCH(trace_rays)(scene, rays, hits, scratch);
 }
 
 void retrace_lanes(const LaneScene& scene, const Camera& camera,
                    std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
                    LaneScratch& scratch, const TileRecord& record) {
-  HWY_DYNAMIC_DISPATCH(retrace_positions)(scene, camera, positions, places, hits, scratch, record);
+  WHITTLE_DISPATCH(retrace_positions)(scene, camera, positions, places, hits, scratch, record);
 }
 
 }  // namespace whittle

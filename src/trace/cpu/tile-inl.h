@@ -21,11 +21,6 @@ namespace whittle {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// An eye this close to a surface stands on it, this close to the eye a ray still does; shares of
-/// the region's longest edge, above what rounding does.
-constexpr double kOnSurface = 2e-14;
-constexpr double kAtEye = 1e-13;
-
 /// No inverse of a direction is larger, so that a product with it is a number (or infinite) always.
 constexpr double kMostInverse = 1e300;
 
@@ -41,6 +36,8 @@ class Tile {
   /// At most most_rays() positions.
   void make_rays(const LaneScene& scene, const Camera& camera,
                  std::span<const PixelPosition> positions);
+  /// At most most_rays() of any kind.
+  void make_rays(const LaneScene& scene, std::span<const Ray> given);
   /// Hits of those that met something, nothing for the others.
   void write(const LaneScene& scene, const uint32_t* places, Hit* hits) const;
 
@@ -97,6 +94,10 @@ class Tile {
   static void in_picture(const Camera& camera, const PixelPosition* positions, Real& x, Real& y);
   HWY_INLINE Real make_packet(const LaneScene& scene, const Camera& camera, size_t packet, Real x,
                               Real y);
+  HWY_INLINE Real make_packet(const LaneScene& scene, size_t packet, L::Vec3 from, L::Vec3 d,
+                              Real first);
+  void begin(const LaneScene& scene, size_t count);
+  void leave_out_beside();
   HWY_INLINE void write_packet(const LaneScene& scene, size_t packet, const uint32_t* places,
                                Hit* hits) const;
 
@@ -116,12 +117,9 @@ HWY_INLINE uint64_t what_is_met(uint32_t id, uint32_t half_space, bool turned) {
 
 inline void Tile::make_rays(const LaneScene& scene, const Camera& camera,
                             std::span<const PixelPosition> positions) {
-  rays = positions.size();
-  packets = (rays + lanes() - 1) / lanes();
-  at_eye_ = kAtEye * scene.edge;
+  begin(scene, positions.size());
   Real farthest = set(0);
   Real low_x = set(kInfinity), high_x = set(-kInfinity), low_y = low_x, high_y = high_x;
-  from_within = false;
   for (size_t packet = 0; packet < packets; ++packet) {
     const size_t first = packet * lanes(), count = std::min(lanes(), rays - first);
     std::array<PixelPosition, kMaxLanes> some;
@@ -141,6 +139,49 @@ inline void Tile::make_rays(const LaneScene& scene, const Camera& camera,
                             most(high_y) + most(set(0) - low_y)};
   width = std::max(extent[0], extent[1]);
   if (!camera.orthographic) width *= most(farthest);
+  leave_out_beside();
+}
+
+inline void Tile::make_rays(const LaneScene& scene, std::span<const Ray> given) {
+  begin(scene, given.size());
+  Real low[3], high[3];
+  for (int axis = 0; axis < 3; ++axis) low[axis] = set(kInfinity), high[axis] = set(-kInfinity);
+  for (size_t packet = 0; packet < packets; ++packet) {
+    alignas(64) double from[3][kMaxLanes], way[3][kMaxLanes], start[kMaxLanes];
+    for (size_t lane = 0; lane < lanes(); ++lane) {
+      const Ray& ray = given[std::min(packet * lanes() + lane, rays - 1)];
+      for (int axis = 0; axis < 3; ++axis) {
+        from[axis][lane] = ray.origin[axis];
+        way[axis][lane] = ray.direction[axis];
+      }
+      start[lane] = ray.t_min;
+    }
+    const auto loaded = [](const auto& v) {
+      return L::Vec3{hn::Load(D(), v[0]), hn::Load(D(), v[1]), hn::Load(D(), v[2])};
+    };
+    make_packet(scene, packet, loaded(from), loaded(way), hn::Load(D(), start));
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = hn::Min(low[axis], axis_origin(packet, axis));
+      high[axis] = hn::Max(high[axis], axis_origin(packet, axis));
+    }
+  }
+  width = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    width = std::max(width, hn::GetLane(hn::MaxOfLanes(D(), high[axis])) -
+                                hn::GetLane(hn::MinOfLanes(D(), low[axis])));
+  }
+  leave_out_beside();
+}
+
+inline void Tile::begin(const LaneScene& scene, size_t count) {
+  rays = count;
+  packets = (rays + lanes() - 1) / lanes();
+  at_eye_ = kAtEye * scene.edge;
+  from_within = false;
+}
+
+/// Lanes of the last packet that have no ray of their own.
+inline void Tile::leave_out_beside() {
   const size_t beside = packets * lanes() - rays;
   if (beside != 0) meets[packets - 1] &= uint8_t((1u << (lanes() - beside)) - 1);
 }
@@ -160,17 +201,23 @@ HWY_INLINE void Tile::in_picture(const Camera& camera, const PixelPosition* posi
 /// Returns the shifts.
 HWY_INLINE Real Tile::make_packet(const LaneScene& scene, const Camera& camera, size_t packet,
                                   Real x, Real y) {
-  const size_t i = packet * lanes();
   const bool ortho = camera.orthographic;
   const L::Vec3 base = set(ortho ? camera.eye : camera.forward);
   const L::Vec3 point = L::picture_point(base, set(camera.right), set(camera.up), x, y);
-  const L::Vec3 d = ortho ? set(camera.forward) : L::unit3(point);
-  L::Vec3 o = ortho ? point : set(camera.eye);
+  return make_packet(scene, packet, ortho ? point : set(camera.eye),
+                     ortho ? set(camera.forward) : L::unit3(point),
+                     set(ortho ? -camera.ortho_reach : 0));
+}
+
+/// Rays from points along unit directions, from t = `first` on; likewise.
+HWY_INLINE Real Tile::make_packet(const LaneScene& scene, size_t packet, L::Vec3 from, L::Vec3 d,
+                                  Real first) {
+  const size_t i = packet * lanes();
   const L::Vec3 middle = set(scene.scene.origin);
-  o = {o.x - middle.x, o.y - middle.y, o.z - middle.z};
+  L::Vec3 o = {from.x - middle.x, from.y - middle.y, from.z - middle.z};
   const Real shift = set(0) - L::dot3(o, d);
   o = {o.x + d.x * shift, o.y + d.y * shift, o.z + d.z * shift};
-  const Real start = set(ortho ? -camera.ortho_reach : 0) - shift;
+  const Real start = first - shift;
   hn::Store(shift, D(), shift_ + i);
   hn::Store(start, D(), start_ + i);
   const Real os[3] = {o.x, o.y, o.z}, ds[3] = {d.x, d.y, d.z};

@@ -129,7 +129,8 @@ TEST(Oracle, TellsItsProgress) {
   const Model model = model_of("cube(1);");
   const auto oracle = make_oracle_tracer(model, 1);
   std::vector<double> told;
-  oracle->render(cameras_for(model, 10, 50)[0], [&](double share) { told.push_back(share); });
+  const Progress tell = [&](double share) { told.push_back(share); };
+  oracle->render(cameras_for(model, 10, 50)[0], {.progress = tell});
   ASSERT_FALSE(told.empty());
   EXPECT_GT(told.front(), 0);
   EXPECT_TRUE(std::ranges::is_sorted(told));

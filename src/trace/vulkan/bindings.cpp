@@ -47,12 +47,13 @@ Result<Bindings> Bindings::make(const RasterDevice& device) {
   Bindings made;
   made.device_ = &device;
   const VkDevice handle = device.gpu().handle();
-  std::array<VkDescriptorPoolSize, kBindings> sizes{};
-  for (uint32_t i = 0; i < kBindings; ++i) sizes[i] = {descriptor_type(i, device.storage()), 1};
+  std::array<VkDescriptorPoolSize, shader::kBindings> sizes{};
+  for (uint32_t i = 0; i < shader::kBindings; ++i)
+    sizes[i] = {descriptor_type(i, device.storage()), 1};
   VkDescriptorPoolCreateInfo pool_info{};
   pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   pool_info.maxSets = 1;
-  pool_info.poolSizeCount = kBindings;
+  pool_info.poolSizeCount = shader::kBindings;
   pool_info.pPoolSizes = sizes.data();
   VkDescriptorPool pool = VK_NULL_HANDLE;
   VkResult result = vkCreateDescriptorPool(handle, &pool_info, nullptr, &pool);
@@ -68,7 +69,7 @@ Result<Bindings> Bindings::make(const RasterDevice& device) {
   return made;
 }
 
-VkWriteDescriptorSet Bindings::write_to(Binding binding) const {
+VkWriteDescriptorSet Bindings::write_to(uint32_t binding) const {
   VkWriteDescriptorSet write{};
   write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
   write.dstSet = set_;
@@ -78,21 +79,21 @@ VkWriteDescriptorSet Bindings::write_to(Binding binding) const {
   return write;
 }
 
-void Bindings::bind(Binding binding, const gpu::Buffer& buffer) const {
+void Bindings::bind(uint32_t binding, const gpu::Buffer& buffer) const {
   const VkDescriptorBufferInfo info{buffer.handle(), 0, VK_WHOLE_SIZE};
   VkWriteDescriptorSet write = write_to(binding);
   write.pBufferInfo = &info;
   vkUpdateDescriptorSets(device_->gpu().handle(), 1, &write, 0, nullptr);
 }
 
-void Bindings::bind(Binding binding, const ReadBuffer& buffer) const {
+void Bindings::bind(uint32_t binding, const ReadBuffer& buffer) const {
   if (device_->storage()) return bind(binding, buffer.buffer);
   VkWriteDescriptorSet write = write_to(binding);
   write.pTexelBufferView = buffer.view.address();
   vkUpdateDescriptorSets(device_->gpu().handle(), 1, &write, 0, nullptr);
 }
 
-void Bindings::bind(Binding binding, const gpu::Image& image) const {
+void Bindings::bind(uint32_t binding, const gpu::Image& image) const {
   const VkDescriptorImageInfo info{VK_NULL_HANDLE, image.view(),
                                    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
   VkWriteDescriptorSet write = write_to(binding);

@@ -1,5 +1,5 @@
-// What the pipelines read and write: one descriptor set, and the buffers whose kind the device's
-// way to read decides.
+// What the pipelines read and write: one descriptor set, and the buffers that are texel or storage
+// buffers, whichever the device reads faster.
 #pragma once
 
 #include "gpu/memory.h"
@@ -23,15 +23,15 @@ class Bindings {
  public:
   static Result<Bindings> make(const RasterDevice& device);
 
-  void bind(Binding binding, const gpu::Buffer& buffer) const;
-  void bind(Binding binding, const ReadBuffer& buffer) const;
-  void bind(Binding binding, const gpu::Image& image) const;
+  void bind(uint32_t binding, const gpu::Buffer& buffer) const;
+  void bind(uint32_t binding, const ReadBuffer& buffer) const;
+  void bind(uint32_t binding, const gpu::Image& image) const;
 
   /// For all commands of that kind after this one.
   void use(VkCommandBuffer commands, VkPipelineBindPoint kind) const;
 
  private:
-  VkWriteDescriptorSet write_to(Binding binding) const;
+  VkWriteDescriptorSet write_to(uint32_t binding) const;
 
   const RasterDevice* device_ = nullptr;
   gpu::Owned<VkDescriptorPool> pool_;

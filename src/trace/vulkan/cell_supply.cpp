@@ -14,7 +14,7 @@ constexpr size_t kJobsAtOnce = 16;
 
 /// Whether a cell has a place in the host's tree.
 bool has_place(CellKind kind) {
-  return kind == CellKind::kNode || (kind >= CellKind::kConjunction && kind != CellKind::kOpen);
+  return kind == CellKind::kNode || is_leaf(kind);
 }
 
 /// Whether something of the cell or below it has.
@@ -23,7 +23,7 @@ bool may_show(CellLink link) {
   while (!links.empty()) {
     const CellLink now = links.back();
     links.pop_back();
-    if (now.kind() >= CellKind::kConjunction) return true;
+    if (is_leaf(now.kind()) || now.kind() == CellKind::kOpen) return true;
     if (now.kind() == CellKind::kNode)
       links.insert(links.end(), {now.children()[1].link(), now.children()[0].link()});
   }
@@ -179,7 +179,7 @@ Status CellSupply::run(const std::vector<Job>& jobs, const Wanted& wanted, CellB
     batch.visible.insert(batch.visible.end(), parts[i].visible.begin(), parts[i].visible.end());
     if (ends) ends->push_back(batch.visible.size());
   }
-  cell_count_ += uint32_t(flat_.cells.size() / kCellWords);
+  cell_count_ += uint32_t(flat_.cells.size() / shader::kCellWords);
   word_count_ += uint32_t(flat_.words.size());
   batch.cells.insert(batch.cells.end(), flat_.cells.begin(), flat_.cells.end());
   batch.words.insert(batch.words.end(), flat_.words.begin(), flat_.words.end());

@@ -15,10 +15,10 @@ constexpr double kFrontShare = 0.1;
 constexpr uint32_t kMostRanks = (1u << 24) - 1;
 
 /// Invocations in a workgroup of shaders/hidden.comp.
-constexpr uint32_t kTestGroup = 64;
+constexpr uint32_t kTestGroup = shader::kGroupSide * shader::kGroupSide;
 
 /// Makes room in a buffer, half as much again as it has, and binds it.
-Status reserve(const RasterDevice& device, const Bindings& bindings, Binding binding,
+Status reserve(const RasterDevice& device, const Bindings& bindings, uint32_t binding,
                gpu::Buffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage) {
   if (buffer.bytes() >= bytes) return Done{};
   Result<gpu::Buffer> made =
@@ -41,7 +41,7 @@ Status DrawList::fill(RasterDevice& device, const Bindings& bindings,
   bindings_ = &bindings;
   hiding_ = hiding;
   if (Status done =
-          reserve(device, bindings, kInstancesBinding, instances_,
+          reserve(device, bindings, shader::kInstancesBinding, instances_,
                   2 * (cells.size() + 1) * sizeof(Instance), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
       !done)
     return done;
@@ -75,7 +75,7 @@ Status DrawList::fill(RasterDevice& device, const Bindings& bindings,
     to[place_of(i)++] = {cells[i].cell, float(kStep * ++rank)};
 
   if (Status done =
-          reserve(device, bindings, kDrawsBinding, commands_,
+          reserve(device, bindings, shader::kDrawsBinding, commands_,
                   2 * (draws_.size() + 1) * sizeof(Command), VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
       !done)
     return done;

@@ -1,7 +1,9 @@
-// The cells of one tile, sorted by case, and the indirect commands that draw them in two passes:
-// those that are probably seen, and of the others those that the first did not hide.
+// The cells of one tile, sorted by case, and the indirect commands that draw them in two passes.
+// The first draws the cells that are probably seen, the second those of the others that the first
+// does not hide.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -13,8 +15,8 @@ namespace whittle {
 /// What is done to find cells that are hidden.
 enum class Hiding {
   kNone,       ///< all cells are drawn in the first pass
-  kPicture,    ///< those of the second are tested
-  kEverything  ///< so are those of the first: some pixels are shut, or parts were drawn before
+  kPicture,    ///< cells of the second pass are tested
+  kEverything  ///< those of both are: some pixels are shut, or parts were drawn before
 };
 
 class DrawList {
@@ -55,7 +57,8 @@ class DrawList {
     uint32_t first, count;  ///< instances to test
     uint32_t to;            ///< where those go that are not hidden
   };
-  static_assert(sizeof(Command) == 32);
+  static_assert(offsetof(Command, first) == 20 && offsetof(Command, count) == 24 &&
+                offsetof(Command, to) == 28 && sizeof(Command) == 32);
 
   void write_commands();
   /// Where a command finds its instances.

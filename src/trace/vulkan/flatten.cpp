@@ -1,30 +1,28 @@
 #include "trace/vulkan/flatten.h"
 
 #include <array>
-#include <cmath>
 #include <span>
 
+#include "lower/along_kind.h"
 #include "subdivide/refine.h"
 #include "trace/vulkan/words.h"
 
 namespace whittle {
 namespace {
 
-/// What shaders/scene.glsl calls them.
-enum ShaderLeaf : uint32_t { kShaderConjunction, kShaderDisjunction, kShaderTable, kShaderProgram };
-/// And what shaders/resolve.comp calls the steps to an owner.
-enum OwningStep : uint32_t {
-  kBeginAnd,
-  kBeginOr,
-  kEnd,
-  kLiteral,
-  kNotLiteral,
-  kElsewhere,
-  kNotElsewhere
-};
+using shader::kCellWords;
+using shader::kHalfSpaceWords;
+using shader::OwningStep;
+using shader::ShaderLeaf;
 
 /// Where a cell's words say what its leaf is.
 constexpr uint32_t kRuleWord = 12;
+
+// Steps of programs are sent as they are, and leaves that have a shader of their own are told apart
+// by its case alone.
+static_assert(shader::kProgramTrue == kAnswerTrue && shader::kProgramFalse == kAnswerFalse);
+static_assert(uint32_t(FormulaCase::kPrograms) - uint32_t(FormulaCase::kConjunctions) ==
+              uint32_t(ShaderLeaf::kProgram) - uint32_t(ShaderLeaf::kConjunction));
 
 void add_number(std::vector<uint32_t>& to, double value, bool doubles) {
   const auto words = words_of(value, doubles);
@@ -41,7 +39,8 @@ class Flattener {
             FlatPart& part)
       : scene_(scene), wanted_(wanted), refiner_(refiner), doubles_(doubles), part_(part) {}
 
-  /// From the cell down, what rays meet first first. Parents come before children.
+  /// Goes down from the cell. Of two children, the one that rays meet first comes first, and
+  /// parents come before their children.
   Status run(const Cell& cell, const Box& box) {
     struct Item {
       const Cell* cell;
@@ -73,7 +72,7 @@ class Flattener {
           (side == 0 ? half.hi : half.lo)[axis] = split;
           items.push_back({link.children() + side, half, {node, side}});
         }
-      } else if (link.kind() >= CellKind::kConjunction) {
+      } else if (is_leaf(link.kind())) {
         const auto number = uint32_t(part_.cells.size() / kCellWords);
         part_.at(now.place) = kCellBit | number;
         add_cell(now.box, link.kind(), link.leaf());
@@ -112,25 +111,25 @@ class Flattener {
   }
 
   void add_cell(const Box& box, CellKind kind, const Leaf& leaf) {
-    if (leaf.literal_count > kMostLiterals) too_large_ = true;
+    if (leaf.literal_count > shader::kMostLiterals) too_large_ = true;
     const auto first_literal = uint32_t(part_.words.size());
     for (const LeafLiteral& literal : leaf.literals())
       part_.words.insert(part_.words.end(), {literal.literal, literal.owner});
     add_owning_steps(leaf);
     std::array<uint32_t, 2> rule{};
-    ShaderLeaf shader_kind = kShaderConjunction;
+    ShaderLeaf shader_kind = ShaderLeaf::kConjunction;
     switch (kind) {
       case CellKind::kConjunction:
         break;
       case CellKind::kDisjunction:
-        shader_kind = kShaderDisjunction;
+        shader_kind = ShaderLeaf::kDisjunction;
         break;
       case CellKind::kTable:
-        shader_kind = kShaderTable;
+        shader_kind = ShaderLeaf::kTable;
         rule = {uint32_t(leaf.table), uint32_t(leaf.table >> 32)};
         break;
       default:
-        shader_kind = kShaderProgram;
+        shader_kind = ShaderLeaf::kProgram;
         rule[0] = uint32_t(part_.words.size());
         for (const Step& step : leaf.steps())
           part_.words.insert(part_.words.end(), {step.literal, step.on_true, step.on_false});
@@ -139,8 +138,10 @@ class Flattener {
     part_.leaves.push_back(&leaf);
     add_vector(part_.cells, box.lo, doubles_);
     add_vector(part_.cells, box.hi, doubles_);
-    part_.cells.insert(part_.cells.end(),
-                       {first_literal, shader_kind | leaf.literal_count << 2, rule[0], rule[1]});
+    part_.cells.insert(
+        part_.cells.end(),
+        {first_literal, uint32_t(shader_kind) | leaf.literal_count << shader::kLeafBits, rule[0],
+         rule[1]});
   }
 
   /// The leaf's formula with group ends written out, so that no shader needs a stack of them.
@@ -150,16 +151,17 @@ class Flattener {
     to.push_back(0);
     size_t depth = 0;
     const auto add = [&](OwningStep kind, uint32_t operand, uint32_t owner) {
-      to.insert(to.end(), {kind | operand << 3, owner});
+      to.insert(to.end(), {uint32_t(kind) | operand << shader::kStepBits, owner});
       ++to[count];
     };
     const auto enter = [&](const Operand& group) {
-      add(group.token().kind() == TokenKind::kAnd ? kBeginAnd : kBeginOr, 0, 0);
+      add(group.token().kind() == TokenKind::kAnd ? OwningStep::kBeginAnd : OwningStep::kBeginOr, 0,
+          0);
       // The outermost group is one level, the conjunction around it another.
-      if (++depth >= kMostNested) too_nested_ = true;
+      if (++depth >= shader::kMostNested) too_nested_ = true;
     };
     const auto leave = [&] {
-      add(kEnd, 0, 0);
+      add(OwningStep::kEnd, 0, 0);
       --depth;
     };
     const auto add_literal = [&](const Operand& operand) {
@@ -172,9 +174,11 @@ class Flattener {
       while (at < literals.size() && literals[at].literal >> 1 != half_space) ++at;
       // A literal may itself stand for the complement.
       if (at < literals.size())
-        add(complement != bool(literals[at].literal & 1) ? kNotLiteral : kLiteral, at, owner);
+        add(complement != bool(literals[at].literal & 1) ? OwningStep::kNotLiteral
+                                                         : OwningStep::kLiteral,
+            at, owner);
       else
-        add(complement ? kNotElsewhere : kElsewhere, half_space, owner);
+        add(complement ? OwningStep::kNotElsewhere : OwningStep::kElsewhere, half_space, owner);
     };
     walk(leaf.tokens(), enter, add_literal, leave);
   }
@@ -192,14 +196,14 @@ class Flattener {
 std::vector<uint32_t> flatten_half_spaces(const Scene& scene, bool doubles) {
   std::vector<uint32_t> to;
   to.reserve(scene.half_spaces.size() * kHalfSpaceWords);
+  const double edge = max_component(scene.region.size());
   for (const HalfSpace& h : scene.half_spaces) {
     const size_t first = to.size();
-    const ShaderSurface kind = shader_surface(scene, h);
     add_vector(to, h.has_tip() ? scene.tips[h.tip] : h.center, doubles);
-    to.insert(to.end(), {uint32_t(kind), 0});
-    if (kind == ShaderSurface::kPlane) {
+    to.insert(to.end(), {uint32_t(along_kind(h, edge)), 0});
+    if (h.is_plane()) {
       add_vector(to, h.f.b, doubles);
-    } else if (kind == ShaderSurface::kSphere) {
+    } else if (h.kind == SurfaceKind::kSphere) {
       add_number(to, h.f.diag.x, doubles);
       add_number(to, h.f.c, doubles);
     } else {
@@ -230,7 +234,8 @@ void append(FlatPart& part, Place place, uint32_t cells, uint32_t words, FlatCel
   for (size_t at = 0; at < part.cells.size(); at += kCellWords) {
     uint32_t* const rule = &part.cells[at + kRuleWord];
     rule[0] += first_word;
-    if ((rule[1] & 3) == kShaderProgram) rule[2] += first_word;
+    constexpr uint32_t kKindMask = (1u << shader::kLeafBits) - 1;
+    if ((rule[1] & kKindMask) == uint32_t(ShaderLeaf::kProgram)) rule[2] += first_word;
   }
   for (FlatNode& node : part.nodes)
     for (uint32_t& child : node.child) child = moved(child);

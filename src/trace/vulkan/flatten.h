@@ -13,15 +13,6 @@
 
 namespace whittle {
 
-/// A number takes two words (words.h).
-inline constexpr uint32_t kHalfSpaceWords = 28;
-inline constexpr uint32_t kCellWords = 16;
-
-/// Groups inside of groups that a shader can follow when it looks for the owner of a shared face.
-inline constexpr uint32_t kMostNested = 32;
-/// Literals that it has room for in one cell.
-inline constexpr uint32_t kMostLiterals = 1024;
-
 /// What stands in a place of the host's tree: a node's number, or a number with this bit, or one of
 /// the others.
 inline constexpr uint32_t kCellBit = 1u << 31;    ///< a cell on the device
@@ -60,11 +51,12 @@ struct VisibleCell {
 /// Cells, and the host's tree of them. Cells that are empty, full or ignored have no surface and
 /// are left out.
 struct FlatCells {
-  /// For each cell that may be drawn: box (6 numbers); first literal (in `words`), kind | literals
-  /// << 2, and the table, or the first step of the program and nothing.
+  /// For each cell that may be drawn: box (6 numbers); first literal (in `words`); kind, and how
+  /// many literals (shader::kLeafBits); and the table, or the first step of the program and
+  /// nothing.
   std::vector<uint32_t> cells;
-  /// Literals (literal, owner) of each leaf, then the number of its owning steps and these (kind |
-  /// operand << 3, owner); and steps of programs (test, on true, on false).
+  /// Literals (literal, owner) of each leaf, then the number of its owning steps and these (kind
+  /// and operand, owner); and steps of programs (test, on true, on false).
   std::vector<uint32_t> words;
 
   /// What follows only the host has. Of each cell:
@@ -79,8 +71,8 @@ struct FlatCells {
   }
 };
 
-/// For each half-space of the scene: centre (3 numbers), kind, nothing; then of a plane b; of a
-/// sphere its scale and c; of others diag, off, b, c.
+/// For each half-space of the scene: centre (3 numbers), AlongKind, nothing; then of a plane b; of
+/// a sphere its scale and c; of others diag, off, b, c.
 std::vector<uint32_t> flatten_half_spaces(const Scene& scene, bool doubles);
 
 class Refiner;

@@ -106,7 +106,7 @@ struct RandomModel {
     std::vector<Box> boxes;
     const CellTree tree = subdivide(scene, settings);
     for_each_leaf(tree, [&](CellLink link, const Box& box) {
-      if (link.kind() >= CellKind::kConjunction) boxes.push_back(box);
+      if (is_leaf(link.kind())) boxes.push_back(box);
     });
     return boxes;
   }
@@ -123,7 +123,7 @@ TEST(FrontToBack, IsTheOrderOfEveryRayAndMissesNoCell) {
     EXPECT_FALSE(supply.is_open());
     const CellBatch all = *supply.at_once(nullptr);
     const std::map<uint32_t, Box> boxes = boxes_of(supply.flat(), supply.region());
-    EXPECT_EQ(boxes.size(), all.cells.size() / kCellWords);
+    EXPECT_EQ(boxes.size(), all.cells.size() / shader::kCellWords);
     EXPECT_EQ(boxes.size(), statistics_of(tree).leaf_count());
     for (const Camera& camera : cameras_for(subject.model, 12, 9)) {
       std::vector<VisibleCell> visible;

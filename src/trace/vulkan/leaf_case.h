@@ -5,29 +5,13 @@
 #include <cstdint>
 
 #include "subdivide/cells.h"
+#include "trace/vulkan/shader_constants.h"
 
 namespace whittle {
 
-/// How a half-space is solved; shaders/scene.glsl has the same numbers.
-enum class ShaderSurface : uint32_t { kPlane, kSphere, kQuadric, kSmallQuadric, kCone, kSmallCone };
-ShaderSurface shader_surface(const Scene& scene, const HalfSpace& half_space);
-
-/// What a shader knows of the leaf's formula; shaders/cases.glsl has the same numbers. One literal
-/// needs no case for its complement: the surface is seen from either side.
-enum class FormulaCase : uint32_t {
-  kAny,
-  kLiteral,
-  kIntersection,    ///< of two half-spaces A and B; along a ray a segment and a segment
-  kDifference,      ///< A without B: a segment and two semi-intervals
-  kBackDifference,  ///< B without A: two semi-intervals and a segment
-  kOutside,         ///< outside of both: two semi-intervals and two semi-intervals
-  kConjunction,     ///< of more
-  kDisjunction,
-  kTable,
-  kProgram,
-};
-/// And of its surfaces.
-enum class SurfaceCase : uint32_t { kAny, kPlanes, kPlanesAndSpheres };
+/// What a shader knows of a leaf.
+using shader::FormulaCase;
+using shader::SurfaceCase;
 
 /// Both in one number, which also orders the draws. 0: a shader that takes every leaf.
 using LeafCase = uint8_t;

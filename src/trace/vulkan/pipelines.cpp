@@ -13,19 +13,19 @@ using gpu::Device;
 using gpu::Owned;
 
 Status make_layouts(const Device& device, bool storage, Pipelines& p) {
-  std::array<VkDescriptorSetLayoutBinding, kBindings> bindings{};
-  for (uint32_t i = 0; i < kBindings; ++i) {
+  std::array<VkDescriptorSetLayoutBinding, shader::kBindings> bindings{};
+  for (uint32_t i = 0; i < shader::kBindings; ++i) {
     bindings[i].binding = i;
     bindings[i].descriptorType = descriptor_type(i, storage);
     bindings[i].descriptorCount = 1;
-    bindings[i].stageFlags = i >= kSeenBinding
+    bindings[i].stageFlags = i >= shader::kSeenBinding
                                  ? VkShaderStageFlags(VK_SHADER_STAGE_COMPUTE_BIT)
                                  : VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT |
                                        VK_SHADER_STAGE_COMPUTE_BIT;
   }
   VkDescriptorSetLayoutCreateInfo set_info{};
   set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-  set_info.bindingCount = kBindings;
+  set_info.bindingCount = shader::kBindings;
   set_info.pBindings = bindings.data();
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
   VkResult result = vkCreateDescriptorSetLayout(device.handle(), &set_info, nullptr, &set_layout);
@@ -73,15 +73,15 @@ Result<Owned<VkPipeline>> make_compute(const Device& device, VkPipelineLayout la
 
 VkDescriptorType descriptor_type(uint32_t binding, bool storage) {
   switch (binding) {
-    case kViewBinding:
+    case shader::kViewBinding:
       return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    case kSeenBinding:
-    case kDepthsBinding:
+    case shader::kSeenBinding:
+    case shader::kDepthsBinding:
       return VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
-    case kHalfSpacesBinding:
-    case kCellsBinding:
-    case kWordsBinding:
-    case kPositionsBinding:
+    case shader::kHalfSpacesBinding:
+    case shader::kCellsBinding:
+    case shader::kWordsBinding:
+    case shader::kPositionsBinding:
       return storage ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
     default:
       return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
@@ -107,10 +107,10 @@ Result<Pipelines> make_pipelines(const Device& device, bool doubles, bool storag
 }
 
 Status add_draw(const Device& device, LeafCase leaf, Pipelines& p) {
-  // The constants of shaders/cases.glsl.
   const uint32_t constants[] = {uint32_t(formula_case(leaf)), uint32_t(surface_case(leaf))};
-  const VkSpecializationMapEntry entries[] = {{0, 0, sizeof(uint32_t)},
-                                              {1, sizeof(uint32_t), sizeof(uint32_t)}};
+  const VkSpecializationMapEntry entries[] = {
+      {shader::kFormulasConstant, 0, sizeof(uint32_t)},
+      {shader::kSurfacesConstant, sizeof(uint32_t), sizeof(uint32_t)}};
   const VkSpecializationInfo special{2, entries, sizeof(constants), constants};
   VkPipelineShaderStageCreateInfo stages[] = {
       stage_of(VK_SHADER_STAGE_VERTEX_BIT, p.cells.get()),

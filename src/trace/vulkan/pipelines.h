@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "gpu/memory.h"
 #include "gpu/owned.h"
@@ -9,33 +10,16 @@
 
 namespace whittle {
 
-/// Bindings, as the shaders number them.
-enum Binding : uint32_t {
-  kViewBinding,
-  kHalfSpacesBinding,
-  kCellsBinding,
-  kWordsBinding,
-  kPositionsBinding,
-  kSeenBinding,
-  kHitsBinding,
-  kDepthsBinding,
-  kPyramidBinding,
-  kInstancesBinding,
-  kDrawsBinding,
-  kLastSeenBinding,
-  kPlacesBinding,
-};
-inline constexpr uint32_t kBindings = 13;
-
 /// What the device draws into.
 inline constexpr VkFormat kSeenFormat = VK_FORMAT_R32_UINT;
 inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
-/// One cell to draw, as an instance.
+/// One cell to draw, as an instance: the inputs of shaders/cells.vert.
 struct Instance {
   uint32_t cell;
   float depth;  ///< 0 to 1, rising from front to back
 };
+static_assert(offsetof(Instance, depth) == 4 && sizeof(Instance) == 8);
 
 /// Vertices of a cell's box: `kBoxIndices` indices draw the faces that the eye sees; those from
 /// there on, `kSquareIndices` of them, a square over the whole picture.

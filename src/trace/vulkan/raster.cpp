@@ -18,7 +18,7 @@ namespace {
 
 /// What shaders/resolve.comp writes where it is in doubt.
 bool is_doubtful(const Hit& hit) {
-  return hit.id == UINT32_MAX;
+  return hit.id == shader::kDoubtfulId;
 }
 
 /// Brings together the supply of cells, their place on the device, and the drawer of tiles.
@@ -53,9 +53,8 @@ class RasterTracerImpl final : public RasterTracer {
   const char* name() const override { return "vulkan-raster"; }
   Status status() const override { return status_; }
   RasterStats stats() const override { return stats_; }
-  void watch(std::function<void(const Frame&)> watch) override { watch_ = std::move(watch); }
 
-  Frame render(const Camera& camera, const Progress& progress) override {
+  Frame render(const Camera& camera, const RenderControl& control) override {
     Frame frame(camera.width, camera.height);
     stats_ = {};
     clock_ = {};
@@ -63,21 +62,22 @@ class RasterTracerImpl final : public RasterTracer {
     supply_.follow();
     if (supply_.flat().root == kNoChild) return frame;
     const std::vector<PixelRect> tiles = tiles_of(pixels_covering(camera, world_region()));
-    for (size_t i = 0; i < tiles.size() && status_; ++i) {
+    for (size_t i = 0; i < tiles.size() && status_ && !control.stop.stop_requested(); ++i) {
       const PixelRect& tile = tiles[i];
       const auto show = [&] {
         copy_hits(tile, frame);
         look_again(camera, tile, frame);
-        watch_(frame);
+        control.part_seen(frame, tile);
       };
-      status_ =
-          trace_tile(camera, tile, nullptr, stats_, watch_ ? std::function<void()>(show) : nullptr);
+      status_ = trace_tile(camera, tile, nullptr, stats_,
+                           control.part_seen ? std::function<void()>(show) : nullptr);
       if (!status_) break;
       copy_hits(tile, frame);
       const Stopwatch again;
       stats_.in_doubt += look_again(camera, tile, frame);
       stats_.second_ms += again.milliseconds();
-      if (progress) progress(double(i + 1) / double(tiles.size()));
+      if (control.part_seen) control.part_seen(frame, tile);
+      if (control.progress) control.progress(double(i + 1) / double(tiles.size()));
     }
     stats_.cells = supply_.cell_count();
     if (!status_) return Frame(camera.width, camera.height);
@@ -114,7 +114,14 @@ class RasterTracerImpl final : public RasterTracer {
     settle(camera);
   }
 
+  void cast(std::span<const Ray> rays, std::span<Hit> hits) override { second().cast(rays, hits); }
+
  private:
+  Tracer& second() {
+    if (!second_) second_ = second_look_();
+    return *second_;
+  }
+
   Box world_region() const {
     return {supply_.region().lo + scene_.origin, supply_.region().hi + scene_.origin};
   }
@@ -149,11 +156,10 @@ class RasterTracerImpl final : public RasterTracer {
 
   void settle(const Camera& camera) {
     if (doubtful_.empty()) return;
-    if (!second_) second_ = second_look_();
     std::vector<PixelPosition> positions;
     for (const Doubtful& place : doubtful_) positions.push_back(place.position);
     std::vector<Hit> hits(positions.size());
-    second_->probe(camera, positions, hits);
+    second().probe(camera, positions, hits);
     for (size_t i = 0; i < hits.size(); ++i) *doubtful_[i].hit = hits[i];
   }
 
@@ -196,7 +202,7 @@ class RasterTracerImpl final : public RasterTracer {
       status_ = Done{};
       if (Status done = send(batch); !done) return done;
       part.is_last = batch->is_last;
-      sent += batch->cells.size() / kCellWords;
+      sent += batch->cells.size() / shader::kCellWords;
       if (Status done = drawer_.draw(view, batch->visible, sent, nullptr, stats_, part); !done)
         return done;
       if (part.is_first) stats_.first_ms = clock_.milliseconds();
@@ -230,7 +236,6 @@ class RasterTracerImpl final : public RasterTracer {
   TileDrawer drawer_;
   std::vector<VisibleCell> visible_;
   std::vector<OpenCellInSight> open_;
-  std::function<void(const Frame&)> watch_;
   Stopwatch clock_;
   RasterStats stats_;
   Status status_ = Done{};

@@ -26,9 +26,6 @@ class RasterTracer : public Tracer {
   /// to traverse and set up. Precondition: render() was called.
   virtual void set_up(const Camera& camera) = 0;
   virtual RasterStats stats() const = 0;
-  /// From now on render() calls this with what is known so far, whenever it is more: pixels that
-  /// are background may become hits, hits stay what they are.
-  virtual void watch(std::function<void(const Frame&)> watch) = 0;
 };
 
 /// A device with the backend's shaders on it, for any number of tracers, used from one thread at a
@@ -55,8 +52,9 @@ using MakeTracer = std::function<std::unique_ptr<Tracer>()>;
 /// while others are drawn; later pictures refine first what they may see. `scene` must outlive the
 /// tracer. A kMachine error if the device has no room for the cells.
 ///
-/// Where shaders compute in floats they prove what they see, and where they cannot, they say so:
-/// there the tracer made by `second_look` answers (docs/numerics.md). With doubles it is not made.
+/// The tracer made by `second_look` answers what the device is not asked: rays that are no
+/// camera's, and pixels at which shaders that compute in floats cannot prove what they see
+/// (docs/numerics.md). It is made when it is first needed.
 Result<std::unique_ptr<RasterTracer>> make_raster_tracer(std::shared_ptr<RasterDevice> device,
                                                          const Scene& scene, const CellTree& cells,
                                                          const MakeTracer& second_look,

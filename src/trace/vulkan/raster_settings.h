@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "whittle/options.h"
+
 namespace whittle {
 
 /// The numbers that shaders compute with.
@@ -12,9 +14,6 @@ enum class ShaderNumbers { kAuto, kDouble, kFloat };
 /// How shaders read the scene. Storage buffers are slow on Mesa's software device, texel buffers
 /// are small on others.
 enum class ShaderReads { kAuto, kTexels, kStorage };
-
-/// Which shaders solve the cells: one for each case of leaves, as in the paper, or one for all.
-enum class ShaderCases { kSpecialised, kUnified };
 
 struct RasterSettings {
   std::string device;  ///< number or part of a name; empty: the best

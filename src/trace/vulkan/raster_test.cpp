@@ -87,26 +87,25 @@ TEST(Raster, RefinesWhileItDrawsAndLeavesOutWhatIsHidden) {
 
   // What is shown on the way is a part of the picture, and grows.
   std::vector<int> shown;
-  streaming->watch([&](const Frame& frame) {
+  const PartSeen note = [&](const Frame& frame, const PixelRect&) {
     shown.push_back(0);
     for (size_t i = 0; i < frame.hits.size(); ++i) {
       if (!frame.hits[i].hit()) continue;
       EXPECT_TRUE(same(frame.hits[i], expected.hits[i]));
       ++shown.back();
     }
-  });
-  expect_same(streaming->render(cameras[0], {}).hits, expected.hits);
+  };
+  expect_same(streaming->render(cameras[0], {.part_seen = note}).hits, expected.hits);
   ASSERT_TRUE(streaming->status());
   const RasterStats stats = streaming->stats();
   EXPECT_GT(stats.batches, 3u);
-  EXPECT_EQ(shown.size(), stats.batches - 1);
+  EXPECT_EQ(shown.size(), stats.batches) << "the last time with all that is seen";
   EXPECT_TRUE(std::ranges::is_sorted(shown));
   EXPECT_GT(shown.back(), 0);
   EXPECT_GT(stats.first_ms, 0);
   EXPECT_LT(stats.cells, all->stats().cells) << "some are hidden";
 
   // Later pictures see what was left out.
-  streaming->watch(nullptr);
   for (const Camera& camera : cameras)
     expect_same(streaming->render(camera, {}).hits, all->render(camera, {}).hits);
   EXPECT_EQ(streaming->stats().batches, 0u);
@@ -144,7 +143,7 @@ class Marker final : public Tracer {
   static constexpr Hit kMark{-1, 12345, {}};
   explicit Marker(size_t& asked) : asked_(asked) {}
   const char* name() const override { return "marker"; }
-  Frame render(const Camera& camera, const Progress&) override {
+  Frame render(const Camera& camera, const RenderControl&) override {
     return Frame(camera.width, camera.height);
   }
   void probe(const Camera&, std::span<const PixelPosition> positions,
@@ -152,6 +151,7 @@ class Marker final : public Tracer {
     asked_ += positions.size();
     std::ranges::fill(hits, kMark);
   }
+  void cast(std::span<const Ray>, std::span<Hit>) override {}
 
  private:
   size_t& asked_;

@@ -22,7 +22,7 @@ class SceneData {
  private:
   /// Words in a buffer that grows.
   struct Store {
-    Binding binding;
+    uint32_t binding;
     VkFormat format;
     ReadBuffer to;
     VkDeviceSize used = 0;  ///< bytes
@@ -33,9 +33,9 @@ class SceneData {
   const RasterDevice* device_ = nullptr;
   gpu::Commands* commands_ = nullptr;
   const Bindings* bindings_ = nullptr;
-  Store half_spaces_{kHalfSpacesBinding, VK_FORMAT_R32G32B32A32_UINT, {}, 0};
-  Store cells_{kCellsBinding, VK_FORMAT_R32G32B32A32_UINT, {}, 0};
-  Store words_{kWordsBinding, VK_FORMAT_R32_UINT, {}, 0};
+  Store half_spaces_{shader::kHalfSpacesBinding, VK_FORMAT_R32G32B32A32_UINT, {}, 0};
+  Store cells_{shader::kCellsBinding, VK_FORMAT_R32G32B32A32_UINT, {}, 0};
+  Store words_{shader::kWordsBinding, VK_FORMAT_R32_UINT, {}, 0};
 };
 
 }  // namespace whittle

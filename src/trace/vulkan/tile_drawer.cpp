@@ -13,9 +13,10 @@ using gpu::Buffer;
 using gpu::Image;
 using gpu::Placement;
 
-/// What the resolving shader writes for a pixel, and its workgroups' side.
-static_assert(sizeof(Hit) == 20 && offsetof(Hit, id) == 4 && offsetof(Hit, normal) == 8);
-constexpr uint32_t kGroupSide = 8;
+/// What the resolving shader writes for a pixel.
+static_assert(sizeof(Hit) == 4 * shader::kHitWords && offsetof(Hit, id) == 4 &&
+              offsetof(Hit, normal) == 8);
+using shader::kGroupSide;
 
 /// Mesa's software device compiles shaders anew for images whose sides are powers of two, and for
 /// those whose sides are not. These never are, so it compiles once.
@@ -69,7 +70,7 @@ Result<TileDrawer> TileDrawer::make(RasterDevice& device, gpu::Commands& command
       !done)
     return done.error();
   std::memcpy(made.indices_.mapped(), kIndices.data(), sizeof(kIndices));
-  bindings.bind(kViewBinding, made.view_);
+  bindings.bind(shader::kViewBinding, made.view_);
   if (Status done = made.resize(1, 1); !done) return done.error();
   return made;
 }
@@ -120,12 +121,12 @@ Status TileDrawer::resize(int width, int height) {
                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Placement::kUpload);
       !done)
     return done;
-  bindings_->bind(kPlacesBinding, places_);
-  bindings_->bind(kPyramidBinding, pyramid_);
-  bindings_->bind(kDepthsBinding, depth_);
-  bindings_->bind(kPositionsBinding, positions_);
-  bindings_->bind(kHitsBinding, hits_);
-  bindings_->bind(kSeenBinding, seen_);
+  bindings_->bind(shader::kPlacesBinding, places_);
+  bindings_->bind(shader::kPyramidBinding, pyramid_);
+  bindings_->bind(shader::kDepthsBinding, depth_);
+  bindings_->bind(shader::kPositionsBinding, positions_);
+  bindings_->bind(shader::kHitsBinding, hits_);
+  bindings_->bind(shader::kSeenBinding, seen_);
   seen_copy_ = {};
   width_ = width;
   height_ = height;
@@ -143,7 +144,7 @@ Status TileDrawer::make_last_seen(size_t cells) {
   auto* const to = static_cast<std::byte*>(last_seen_.mapped());
   if (old > 0) std::memcpy(to, before.mapped(), old);
   std::memset(to + old, 0, last_seen_.bytes() - old);
-  bindings_->bind(kLastSeenBinding, last_seen_);
+  bindings_->bind(shader::kLastSeenBinding, last_seen_);
   return Done{};
 }
 

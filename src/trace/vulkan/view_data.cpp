@@ -1,17 +1,11 @@
 #include "trace/vulkan/view_data.h"
 
-#include <initializer_list>
-
+#include "kernels/constants.h"
 #include "model/instances.h"
 #include "trace/vulkan/words.h"
 
 namespace whittle {
 namespace {
-
-/// An eye this close to a surface stands on it, this close to the eye a ray still does, and this
-/// far ahead it looks where it goes; shares of the region's longest edge, above what rounding does.
-/// With floats such places are in doubt.
-constexpr double kOnSurface = 2e-14, kAtEye = 1e-13, kAhead = 1e-9;
 
 /// Further than any change.
 constexpr double kEverywhere = 1e37;
@@ -33,25 +27,34 @@ ViewData make_view_data(const Scene& scene, double cell_margin, const Camera& ca
   const double edge = max_component(scene.region.size());
   const Vec3 eye = local_eye(scene, camera);
   const double ahead = doubles ? 0 : reference_ahead(scene.region, camera, eye);
-  // In the order of shaders/view.glsl.
-  size_t count = 0;
-  const auto add = [&](std::initializer_list<double> numbers) {
-    for (const double number : numbers)
-      for (const uint32_t word : words_of(number, doubles)) data.numbers[count++] = word;
+  const auto set_number = [&](uint32_t at, double number) {
+    const std::array<uint32_t, 2> words = words_of(number, doubles);
+    data.numbers[2 * at] = words[0];
+    data.numbers[2 * at + 1] = words[1];
   };
-  const auto add_vector = [&](Vec3 v) { add({v.x, v.y, v.z}); };
-  add_vector(doubles ? eye : Vec3{});
-  add_vector(camera.right);
-  add_vector(camera.up);
-  add_vector(camera.forward);
-  add({camera.units_per_pixel(), 0.5 * camera.width, 0.5 * camera.height,
-       camera.orthographic ? -camera.ortho_reach : 0});
+  const auto set_vector = [&](uint32_t at, Vec3 v) {
+    for (int axis = 0; axis < 3; ++axis) set_number(at + uint32_t(axis), v[axis]);
+  };
+  set_vector(shader::kViewAxis, doubles ? eye : Vec3{});
+  set_vector(shader::kViewRight, camera.right);
+  set_vector(shader::kViewUp, camera.up);
+  set_vector(shader::kViewForward, camera.forward);
+  set_number(shader::kViewScale, camera.units_per_pixel());
+  set_number(shader::kViewHalfWidth, 0.5 * camera.width);
+  set_number(shader::kViewHalfHeight, 0.5 * camera.height);
+  set_number(shader::kViewStart, camera.orthographic ? -camera.ortho_reach : 0);
   if (doubles) {
-    add({kAtEye * edge, kOnSurface * edge, kAhead * edge,
-         together({scene.region.lo + scene.origin, scene.region.hi + scene.origin})});
+    const Box world{scene.region.lo + scene.origin, scene.region.hi + scene.origin};
+    set_number(shader::kViewAtEye, kAtEye * edge);
+    set_number(shader::kViewOnSurface, kOnSurface * edge);
+    set_number(shader::kViewAhead, kAhead * edge);
+    set_number(shader::kViewRayTolerance, ray_tolerance(world));
   } else {
-    add({ahead, 0.5 * cell_margin, scene.bounded ? kEverywhere : 0, 4 * kOnSurface * edge});
-    add_vector(eye + camera.forward * ahead);
+    set_number(shader::kViewAxisAhead, ahead);
+    set_number(shader::kViewGrown, 0.5 * cell_margin);
+    set_number(shader::kViewBeyond, scene.bounded ? kEverywhere : 0);
+    set_number(shader::kViewAtSurface, 4 * kOnSurface * edge);
+    set_vector(shader::kViewReference, eye + camera.forward * ahead);
   }
   data.tile_origin = {tile.x0, tile.y0};
   data.tile_size = {tile.width(), tile.height()};

@@ -9,7 +9,7 @@
 #include "boxes.glsl"
 #include "pyramid.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kGroupSide * kGroupSide) in;
 
 struct Command {
   uint index_count, instance_count, first_index, vertex_offset, first_instance;
@@ -20,9 +20,9 @@ struct Instance {
   uint cell;
   float depth;
 };
-layout(set = 0, binding = 8) readonly buffer Pyramid { float pyramid[]; };
-layout(set = 0, binding = 9) buffer Instances { Instance instances[]; };
-layout(set = 0, binding = 10) buffer Commands { Command commands[]; };
+layout(set = 0, binding = kPyramidBinding) readonly buffer Pyramid { float pyramid[]; };
+layout(set = 0, binding = kInstancesBinding) buffer Instances { Instance instances[]; };
+layout(set = 0, binding = kDrawsBinding) buffer Commands { Command commands[]; };
 
 bool is_hidden(Instance instance) {
   const Box box = grown_box(instance.cell);

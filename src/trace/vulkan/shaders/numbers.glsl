@@ -27,6 +27,15 @@ Real dot3(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Vec3 make_vec3(Real x, Real y, Real z) { return Vec3(x, y, z); }
 Vec2 make_vec2(Real x, Real y) { return Vec2(x, y); }
 
+// What is written once for C++ and GLSL.
+#define NUMBER(name, value) const Real name = Real(value);
+#define UINT(name, value) const uint name = value;
+#define ENUM(name)
+#define IS(name, value) const uint name = value;
+#define END
+#include "kernels/constants.inl"
+#include "trace/vulkan/shader_constants.inl"
+
 #include "kernels/camera.inl"
 #include "kernels/halfspace.inl"
 

@@ -38,7 +38,7 @@ Pair times(Pair a, Pair b) {
 
 // f of a half-space at a place relative to the view's reference.
 Real value_by_pairs(uint half_space, Vec3 at) {
-  const uint first = half_space * 7;
+  const uint first = half_space * kHalfSpaceVectors;
   const uvec4 center0 = half_space_words(first), center1 = half_space_words(first + 1);
   const uvec4 a = half_space_words(first + 2), b = half_space_words(first + 3),
               c = half_space_words(first + 4), d = half_space_words(first + 5),
@@ -48,7 +48,7 @@ Real value_by_pairs(uint half_space, Vec3 at) {
   uvec2 diag[3] = {none, none, none}, off[3] = diag, linear[3] = diag, constant = none;
   if (kind == kPlane) {
     linear = uvec2[3](a.xy, a.zw, b.xy);
-  } else if (kind == kSphere) {
+  } else if (is_sphere(kind)) {
     diag = uvec2[3](a.xy, a.xy, a.xy);
     constant = a.zw;
   } else {
@@ -59,7 +59,7 @@ Real value_by_pairs(uint half_space, Vec3 at) {
   }
   Pair q[3];
   for (int i = 0; i < 3; ++i)
-    q[i] = add(add(Pair(at[i], 0), pair_of(view_words(20 + i))), K(-1) * pair_of(center[i]));
+    q[i] = add(add(Pair(at[i], 0), pair_of(view_words(kViewReference + i))), K(-1) * pair_of(center[i]));
   Pair value = pair_of(constant);
   for (int i = 0; i < 3; ++i) {
     // Of A q + 2 b one number, off standing across from its axis.

@@ -1,9 +1,9 @@
 // Where in the picture a pixel of the tile looks: its centre, or a place that was asked for.
 #if WHITTLE_STORAGE
-layout(set = 0, binding = 4) readonly buffer Positions { vec2 positions[]; };
+layout(set = 0, binding = kPositionsBinding) readonly buffer Positions { vec2 positions[]; };
 vec2 asked_position(int i) { return positions[i]; }
 #else
-layout(set = 0, binding = 4) uniform samplerBuffer positions;
+layout(set = 0, binding = kPositionsBinding) uniform samplerBuffer positions;
 vec2 asked_position(int i) { return texelFetch(positions, i).xy; }
 #endif
 

@@ -1,6 +1,6 @@
 #version 460
-// From the depths of a tile to the farthest of each square of it. A workgroup makes 8 x 8 squares,
-// which are one large square.
+// From the depths of a tile to the farthest of each square of it. The squares of a workgroup are
+// one large square.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "numbers.glsl"
@@ -9,10 +9,10 @@
 #include "scene.glsl"
 #include "pyramid.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kSquare, local_size_y = kSquare) in;
 
-layout(set = 0, binding = 7) uniform texture2D depths;
-layout(set = 0, binding = 8) writeonly buffer Pyramid { float pyramid[]; };
+layout(set = 0, binding = kDepthsBinding) uniform texture2D depths;
+layout(set = 0, binding = kPyramidBinding) writeonly buffer Pyramid { float pyramid[]; };
 
 shared float of_square[kSquare * kSquare];
 

@@ -1,6 +1,6 @@
-// The farthest depths of squares of the tile, in two levels: squares of 8 x 8 pixels, and behind
-// them squares of 8 x 8 such. Row by row.
-const int kSquare = 8;
+// The farthest depths of squares of the tile, in two levels: squares of pixels, and behind them
+// squares of as many squares. Row by row.
+const int kSquare = int(kGroupSide);
 
 ivec2 squares() { return (view.tile_size + kSquare - 1) / kSquare; }
 ivec2 large_squares() { return (squares() + kSquare - 1) / kSquare; }

@@ -72,7 +72,7 @@ OnRay from_tip(AlongRay along, Quadric f, Vec3 o) {
   const Vec3 q = Vec3(o.x + ray.direction.x * t, o.y + ray.direction.y * t,
                       o.z + ray.direction.z * t);
   const Real distance = sqrt(dot3(q, q));
-  if (distance > view_on_surface()) r.ahead = pmin(view_ahead(), K(1e-9) * distance);
+  if (distance > view_on_surface()) r.ahead = pmin(view_ahead(), kAhead * distance);
   r.on_surface *= pmin(K(1), cone_most_slope(f, distance + view_on_surface()));
   return r;
 }
@@ -82,16 +82,21 @@ OnRay on_ray(uint half_space) {
   const uint kind = kSurfaces == kPlanes ? kPlane : half_space_kind(half_space);
   if (kSurfaces == kPlanesAndSpheres && kind != kPlane) {
     const Quadric f = half_space_quadric(half_space, kSphere);
-    return as_distance(sphere_along_ray(f.diag.x, f.c, o, ray.direction));
+    return as_distance(kind == kSphere
+                           ? sphere_along_ray(f.diag.x, f.c, o, ray.direction)
+                           : small_sphere_along_ray(f.diag.x, f.c, o, ray.direction));
   }
   const Quadric f =
       half_space_quadric(half_space, kSurfaces == kAnySurfaces ? kind : kPlane);
   if (kind == kPlane || kSurfaces != kAnySurfaces)
     return as_distance(plane_along_ray(f.b, o, ray.direction));
   if (kind == kSphere) return as_distance(sphere_along_ray(f.diag.x, f.c, o, ray.direction));
+  if (kind == kSmallSphere)
+    return as_distance(small_sphere_along_ray(f.diag.x, f.c, o, ray.direction));
   if (kind == kCone) return from_tip(cone_along_ray(f, o, ray.direction), f, o);
   if (kind == kSmallCone) return from_tip(small_quadric_along_ray(f, o, ray.direction), f, o);
   if (kind == kSmallQuadric) return as_distance(small_quadric_along_ray(f, o, ray.direction));
+  // kDiagonal, too: the same numbers, and no more code for the driver to write out.
   return as_distance(quadric_along_ray(f, o, ray.direction));
 }
 
@@ -142,8 +147,8 @@ const Next kNoNext = Next(kFar);
 
 void add(inout Next next, Crossing crossing) { next.t = pmin(next.t, crossing.t); }
 
-// Crossings until then are one.
-Real end_of(Next next) { return next.t + view_together(); }
+// Crossings until then coincide with it.
+Real end_of(Next next) { return next.t + view_ray_tolerance(); }
 
 bool is_crowded(Next next) { return false; }
 

@@ -104,7 +104,7 @@ OnRay on_ray(uint half_space) {
   if (kind == kPlane) {
     r.f = plane_along_ray(f.b, q, ray.direction);
     r.error = place_error + K(16) * kRounding * dot3(abs(f.b), farthest);
-  } else if (kSurfaces == kPlanesAndSpheres || kind == kSphere) {
+  } else if (kSurfaces == kPlanesAndSpheres || is_sphere(kind)) {
     r.f = diagonal_along_ray(f.diag, f.c, q, ray.direction);
     const Real slope = f.diag.x * sqrt(dot3(farthest, farthest));
     r.error = K(2) * slope * place_error +

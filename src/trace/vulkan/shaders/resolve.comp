@@ -10,27 +10,24 @@
 #include "scene.glsl"
 
 // Until a change is found, what held before the last crossings; then, what they changed.
-uint changed[1024 / 32];
+uint changed[kMostLiterals / 32];
 #define WHITTLE_BEFORE_CHANGE \
   for (uint w = 0; w < truth_words(); ++w) changed[w] = truth[w];
 #include "solve.glsl"
 #include "position.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kGroupSide, local_size_y = kGroupSide) in;
 
-layout(set = 0, binding = 5) uniform utexture2D seen;
-layout(set = 0, binding = 6) writeonly buffer Hits { uint hits[]; };
+layout(set = 0, binding = kSeenBinding) uniform utexture2D seen;
+layout(set = 0, binding = kHitsBinding) writeonly buffer Hits { uint hits[]; };
 
 // By cell: the picture in which it was last seen.
-layout(set = 0, binding = 11) writeonly buffer LastSeen { uint last_seen[]; };
+layout(set = 0, binding = kLastSeenBinding) writeonly buffer LastSeen { uint last_seen[]; };
 
 // Where pixels look at places of their own: how many do, and their numbers.
-layout(set = 0, binding = 12) readonly buffer Places { uint places[]; };
+layout(set = 0, binding = kPlacesBinding) readonly buffer Places { uint places[]; };
 
-const uint kFacts = 5;  // words a pixel: distance, id, normal
-
-// The id where the host must look again, and whether it must. What was found out is then of no use.
-const uint kDoubtfulId = 0xffffffffu;
+// Whether the host must look again. What was found out is then of no use.
 bool is_doubtful = false;
 
 bool is_true(uint i) { return (truth[i / 32] >> (i % 32) & 1) != 0; }
@@ -38,7 +35,7 @@ bool happens(uint i) { return (changed[i / 32] >> (i % 32) & 1) != 0; }
 
 const uint kNone = 0xffffffffu;
 
-// Of the crossings that happen together, the first that the solid would not have changed without,
+// Of the crossings that coincide, the first that the solid would not have changed without,
 // or that would have changed it alone; `size` counts them.
 uint decisive(Change change, out uint size) {
   uint first = kNone;
@@ -64,10 +61,9 @@ uint decisive(Change change, out uint size) {
   return first;
 }
 
-// The leaf's formula in the order of evaluation, two words a step: kind and operand, owner.
-const uint kBeginAnd = 0, kBeginOr = 1, kEnd = 2, kLiteral = 3, kNotLiteral = 4, kElsewhere = 5,
-           kNotElsewhere = 6;
-const uint kMostNested = 32;
+// A step of the leaf's formula, in the order of evaluation; two words: kind and operand, owner.
+uint kind_of(uint step) { return step & ((1u << kStepBits) - 1); }
+uint operand_of(uint step) { return step >> kStepBits; }
 
 // The step whose face owns a change: down the formula, at each group into the first operand that
 // changes. kNone if there is none.
@@ -77,7 +73,7 @@ uint owning_step(uint first, uint count, Vec3 point, Next where) {
   found[0] = kNone;
   uint level = 0;
   for (uint s = 0; s < count; ++s) {
-    const uint step = word(first + 2 * s), kind = step & 7, operand = step >> 3;
+    const uint step = word(first + 2 * s), kind = kind_of(step), operand = operand_of(step);
     bool was, is;
     uint by = s;
     if (kind == kBeginAnd || kind == kBeginOr) {
@@ -127,14 +123,14 @@ uint look(uint what, ivec2 pixel, out Change change) {
 void main() {
   const bool probes = view.probes != 0;
   // Those in the last workgroup that have no place do the last one again.
-  const uint place = min(gl_WorkGroupID.x * 64 + gl_LocalInvocationIndex, places[0] - 1);
+  const uint place = min(gl_WorkGroupID.x * kGroupSide * kGroupSide + gl_LocalInvocationIndex, places[0] - 1);
   const int number = int(places[(place + 1) * uint(probes)]);
   const ivec2 pixel = mix(ivec2(gl_GlobalInvocationID.xy),
                           ivec2(number % view.tile_size.x, number / view.tile_size.x),
                           bvec2(probes));
   if (any(greaterThanEqual(pixel, view.tile_size))) return;
   const uint at =
-      mix(uint(pixel.y * view.tile_size.x + pixel.x), place, probes) * kFacts;
+      mix(uint(pixel.y * view.tile_size.x + pixel.x), place, probes) * kHitWords;
   const uint what = texelFetch(seen, pixel, 0).x;
   const uint cell = what & ~kDoubtBit;
   if (cell != 0) last_seen[cell - 1] = view.picture;
@@ -143,7 +139,7 @@ void main() {
   if (verdict != kYes) {
     hits[at] = 0x7f800000u;  // infinity
     hits[at + 1] = verdict == kDoubt ? kDoubtfulId : 0;
-    for (uint i = 2; i < kFacts; ++i) hits[at + i] = 0;
+    for (uint i = 2; i < kHitWords; ++i) hits[at + i] = 0;
     return;
   }
   for (uint w = 0; w < truth_words(); ++w) changed[w] ^= truth[w];
@@ -157,16 +153,15 @@ void main() {
     uint step = owning_step(first_step, steps, point, change.at);
     // No operand changes: then the first face on that half-space has it.
     for (uint s = 0; s < steps && step == kNone; ++s) {
-      const uint kind = word(first_step + 2 * s) & 7;
-      if ((kind == kLiteral || kind == kNotLiteral) && word(first_step + 2 * s) >> 3 == literal)
+      const uint word_of = word(first_step + 2 * s), kind = kind_of(word_of);
+      if ((kind == kLiteral || kind == kNotLiteral) && operand_of(word_of) == literal)
         step = s;
     }
     if (step != kNone) {
       id = word(first_step + 2 * step + 1);
-      const uint operand = word(first_step + 2 * step);
-      if (((operand & 7) == kLiteral || (operand & 7) == kNotLiteral) &&
-          happens(operand >> 3))
-        literal = operand >> 3;
+      const uint word_of = word(first_step + 2 * step), kind = kind_of(word_of);
+      if ((kind == kLiteral || kind == kNotLiteral) && happens(operand_of(word_of)))
+        literal = operand_of(word_of);
     }
   }
   const uint half_space = literal_word(literal) >> 1;

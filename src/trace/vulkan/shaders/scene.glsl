@@ -1,29 +1,31 @@
 // The scene's data as the device has it; src/trace/vulkan/flatten.h says what is where. Read from
 // texel buffers or from storage buffers (WHITTLE_STORAGE): which is faster depends on the device.
 #if WHITTLE_STORAGE
-layout(set = 0, binding = 1) readonly buffer HalfSpaces { uvec4 half_space_data[]; };
-layout(set = 0, binding = 2) readonly buffer Cells { uvec4 cell_data[]; };
-layout(set = 0, binding = 3) readonly buffer Words { uint word_data[]; };
+layout(set = 0, binding = kHalfSpacesBinding) readonly buffer HalfSpaces { uvec4 half_space_data[]; };
+layout(set = 0, binding = kCellsBinding) readonly buffer Cells { uvec4 cell_data[]; };
+layout(set = 0, binding = kWordsBinding) readonly buffer Words { uint word_data[]; };
 uvec4 half_space_words(uint i) { return half_space_data[i]; }
 uvec4 cell_words(uint i) { return cell_data[i]; }
 uint word(uint i) { return word_data[i]; }
 #else
-layout(set = 0, binding = 1) uniform usamplerBuffer half_space_data;
-layout(set = 0, binding = 2) uniform usamplerBuffer cell_data;
-layout(set = 0, binding = 3) uniform usamplerBuffer word_data;
+layout(set = 0, binding = kHalfSpacesBinding) uniform usamplerBuffer half_space_data;
+layout(set = 0, binding = kCellsBinding) uniform usamplerBuffer cell_data;
+layout(set = 0, binding = kWordsBinding) uniform usamplerBuffer word_data;
 uvec4 half_space_words(uint i) { return texelFetch(half_space_data, int(i)); }
 uvec4 cell_words(uint i) { return texelFetch(cell_data, int(i)); }
 uint word(uint i) { return texelFetch(word_data, int(i)).x; }
 #endif
 
-const uint kConjunction = 0, kDisjunction = 1, kTable = 2, kProgram = 3;
+// Vectors of four words.
+const uint kCellVectors = kCellWords / 4, kHalfSpaceVectors = kHalfSpaceWords / 4;
 
 struct Box {
   Vec3 lo, hi;
 };
 
 Box cell_box(uint cell) {
-  const uvec4 a = cell_words(cell * 4), b = cell_words(cell * 4 + 1), c = cell_words(cell * 4 + 2);
+  const uint first = cell * kCellVectors;
+  const uvec4 a = cell_words(first), b = cell_words(first + 1), c = cell_words(first + 2);
   return Box(place(a.xy, a.zw, b.xy), place(b.zw, c.xy, c.zw));
 }
 
@@ -34,41 +36,44 @@ struct Leaf {
 };
 
 Leaf cell_leaf(uint cell) {
-  const uvec4 w = cell_words(cell * 4 + 3);
-  Leaf leaf = Leaf(w.y & 3, w.y >> 2, w.x, w.zw);
+  const uvec4 w = cell_words(cell * kCellVectors + 3);
+  Leaf leaf = Leaf(w.y & ((1u << kLeafBits) - 1), w.y >> kLeafBits, w.x, w.zw);
   if (kFormulas >= kConjunctions) leaf.kind = kFormulas - kConjunctions + kConjunction;
   return leaf;
 }
 
 Vec3 half_space_center(uint i) {
-  const uvec4 a = half_space_words(i * 7);
-  return place(a.xy, a.zw, half_space_words(i * 7 + 1).xy);
+  const uint first = i * kHalfSpaceVectors;
+  const uvec4 a = half_space_words(first);
+  return place(a.xy, a.zw, half_space_words(first + 1).xy);
 }
 
-// A cone's centre is its tip, where its b and c are zero.
-const uint kPlane = 0, kSphere = 1, kQuadric = 2, kSmallQuadric = 3, kCone = 4, kSmallCone = 5;
-uint half_space_kind(uint i) { return half_space_words(i * 7 + 1).z; }
+// An AlongKind. A cone's centre is its tip, where its b and c are zero.
+uint half_space_kind(uint i) { return half_space_words(i * kHalfSpaceVectors + 1).z; }
+bool is_sphere(uint kind) { return kind == kSphere || kind == kSmallSphere; }
 
 // Of a plane or quadric. A plane's second degree is zero and not stored.
 Quadric half_space_quadric(uint i, uint kind) {
-  const uvec4 a = half_space_words(i * 7 + 2), b = half_space_words(i * 7 + 3);
+  const uint first = i * kHalfSpaceVectors + 2;
+  const uvec4 a = half_space_words(first), b = half_space_words(first + 1);
   Quadric f;
   if (kind == kPlane) {
     f.diag = Vec3(0);
     f.off = Vec3(0);
     f.b = Vec3(to_real(a.xy), to_real(a.zw), to_real(b.xy));
     f.c = K(0);
-  } else if (kind == kSphere) {
+  } else if (is_sphere(kind)) {
     f.diag = Vec3(to_real(a.xy));
     f.off = Vec3(0);
     f.b = Vec3(0);
     f.c = to_real(a.zw);
   } else {
-    const uvec4 c = half_space_words(i * 7 + 4), d = half_space_words(i * 7 + 5);
+    const uvec4 c = half_space_words(first + 2), d = half_space_words(first + 3),
+                e = half_space_words(first + 4);
     f.diag = Vec3(to_real(a.xy), to_real(a.zw), to_real(b.xy));
     f.off = Vec3(to_real(b.zw), to_real(c.xy), to_real(c.zw));
-    f.b = Vec3(to_real(d.xy), to_real(d.zw), to_real(half_space_words(i * 7 + 6).xy));
-    f.c = to_real(half_space_words(i * 7 + 6).zw);
+    f.b = Vec3(to_real(d.xy), to_real(d.zw), to_real(e.xy));
+    f.c = to_real(e.zw);
   }
   return f;
 }

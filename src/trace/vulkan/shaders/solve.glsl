@@ -18,7 +18,6 @@ Leaf leaf;
 
 // Bit i: literal i is true. In conjunctions and disjunctions a literal may be a complement; in
 // tables and programs it is the half-space itself.
-const uint kMostLiterals = 1024;
 uint truth[kMostLiterals / 32];
 
 // The crossings of literals, where they are few: 2 i and 2 i + 1 are those of literal i, kNever
@@ -38,8 +37,6 @@ bool enter(uint cell, Ray with) {
   return enter_box(cell_box(cell));
 }
 
-const uint kAnswerTrue = 0xffffffffu, kAnswerFalse = 0xfffffffeu;
-
 // Whether a point is in the solid where the literals are as `truth` says.
 bool is_solid() {
   if (leaf.kind == kTable) {
@@ -48,11 +45,11 @@ bool is_solid() {
   }
   if (leaf.kind == kProgram) {
     uint at = 0;
-    while (at < kAnswerFalse) {
+    while (at < kProgramFalse) {
       const uint step = leaf.rule.x + 3 * at, test = word(step), i = test >> 1;
       at = word(step + ((truth[i / 32] >> (i % 32) & 1) != (test & 1) ? 1 : 2));
     }
-    return at == kAnswerTrue;
+    return at == kProgramTrue;
   }
   // What decides a conjunction is a literal that is false, and a disjunction one that is true.
   const bool conjunction = leaf.kind == kConjunction;

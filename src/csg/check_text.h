@@ -1,0 +1,17 @@
+// What is text at all, before it is read as .csg.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+#include "csg/read_csg.h"
+
+namespace whittle {
+
+/// The text as it can be read, without a byte-order mark; or why it is no text. Errors are kInput
+/// with their place in `file_name`.
+Result<std::string_view> check_text(std::string_view text, const std::string& file_name,
+                                    const ReadLimits& limits);
+
+}  // namespace whittle
