@@ -65,7 +65,7 @@ bool is_vector(const Value* value) {
 int numbers(const Value* value, double* out, int capacity) {
   if (!is_vector(value)) return -1;
   int count = 0;
-  for (const Value* e = value->begin(); e != value->end(); e += e->extent, ++count) {
+  for (const Value* e = value->begin(); e != value->end(); e = e->end(), ++count) {
     if (!is_number(e) || count == capacity) return -1;
     out[count] = e->number;
   }
@@ -104,7 +104,7 @@ std::optional<std::string> read_string(const Statement& statement, size_t index,
                                        Warnings& warnings) {
   const Value* const value = defined_argument(statement, index);
   if (!value) return std::nullopt;
-  if (value->kind == Value::Kind::kString) return unescaped(value->text);
+  if (value->kind == Value::Kind::kString) return unescaped(value->text());
   warn(statement, fmt::format("{} is not a text; it is ignored", statement.type->parameters[index]),
        warnings);
   return std::nullopt;

@@ -70,6 +70,7 @@ std::optional<Mistake> DocumentBuilder::add(const Statement& statement, std::str
   if (statement.type->passes_fragments && !is_childless(statement.type->meaning) &&
       (given.fn || given.fa || given.fs)) {
     open.scope = static_cast<uint32_t>(scopes_.size());
+    inherits_fragments_ |= parent.scope == 0 && !given.is_complete();
     // Not the top level's, which may still change.
     scopes_.push_back(parent.scope == 0 ? given : given.within(scopes_[parent.scope]));
   }
@@ -219,6 +220,7 @@ void DocumentBuilder::add_extruded_file(const Statement& statement, OpenStatemen
                    .where = statement.where});
   GivenFragments given = statement.fragments;
   if (open.scope != 0) given = given.within(scopes_[open.scope]);
+  inherits_fragments_ |= open.scope == 0 && !given.is_complete();
   pending_.push_back({NodeKind::kLeaf, false, leaf, given});
   open.drops_children = true;
   open.operands = 1;
@@ -239,6 +241,7 @@ void DocumentBuilder::take_fragments(const Statement& statement, const OpenState
   if (curve.given.is_complete()) {
     set_fragments(curve, curve.given.settings());
   } else {
+    inherits_fragments_ |= parent.scope == 0;
     pending_.push_back(curve);
   }
 }
@@ -267,10 +270,6 @@ void DocumentBuilder::set_fragments(const Pending& curve, const FragmentSettings
       shape);
 }
 
-bool DocumentBuilder::keeps_empty_operands(const Node& node) const {
-  return node.kind == NodeKind::kDifference || node.kind == NodeKind::kIntersection;
-}
-
 void DocumentBuilder::close(const OpenStatement& closed, OpenStatement& parent) {
   if (closed.node == kNone) return;
   Model& model = document_.model;
@@ -291,11 +290,26 @@ void DocumentBuilder::close(const OpenStatement& closed, OpenStatement& parent) 
   if (childless && !keeps_empty_operands(nodes[parent.node])) {
     // An empty operand of a union; elsewhere it counts.
     --parent.operands;
+    parent.drops_empty = true;
     nodes.pop_back();
   } else if (closed.operands == 1 && node.kind != NodeKind::kTransform &&
              node.kind != NodeKind::kColor && node.kind != NodeKind::kOperation) {
     node.end = kRemoved;
+    has_removed_ = true;
   }
+}
+
+void DocumentBuilder::clear() {
+  Model& model = document_.model;
+  model.nodes.resize(1);
+  model.transforms.clear(), model.colors.clear(), model.primitives.clear();
+  document_.leaves.clear(), document_.operations.clear();
+  document_.leaf_ids.clear(), document_.operation_ids.clear();
+  model.statement_count = 0;
+  root_ = kNone;
+  has_removed_ = inherits_fragments_ = false;
+  scopes_.resize(1);
+  pending_.clear();
 }
 
 Document DocumentBuilder::finish() {
@@ -305,7 +319,7 @@ Document DocumentBuilder::finish() {
     set_fragments(curve, curve.given.within(scopes_[0]).settings());
   }
   if (root_ != kNone) keep_subtree(document_, root_);
-  remove_marked(model);
+  if (has_removed_) remove_marked(model);
   return std::move(document_);
 }
 

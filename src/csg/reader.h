@@ -1,6 +1,7 @@
 // From .csg text to what it says.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -11,10 +12,15 @@
 
 namespace whittle {
 
+/// Pieces that a text is read in, side by side, have about so many bytes.
+inline constexpr size_t kPieceBytes = size_t{1} << 18;
+
 /// Reads text that check_text() has passed. `file_name` is what messages call it. The result does
 /// not refer to `text`. Errors are kInput with one line `file:line:column: error: ...`. One pass,
-/// linear in the text; nesting costs memory, never stack.
+/// linear in the text; nesting costs memory, never stack. A text of several pieces is read on
+/// `options.threads`; what is read, and what is said, is the same on any number of them.
 Result<Document> read_document(std::string_view text, const std::string& file_name,
-                               const ReadOptions& options, Warnings& warnings);
+                               const ReadOptions& options, Warnings& warnings,
+                               size_t piece_bytes = kPieceBytes);
 
 }  // namespace whittle
