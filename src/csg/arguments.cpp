@@ -41,25 +41,9 @@ void append_utf8(uint32_t code, std::string& text) {
 
 }  // namespace
 
-const Value* argument(const Statement& statement, size_t index) {
-  return statement.arguments[index];
-}
-
-const Value* defined_argument(const Statement& statement, size_t index) {
-  const Value* const value = argument(statement, index);
-  return value && value->kind != Value::Kind::kUndef ? value : nullptr;
-}
-
 void warn(const Statement& statement, std::string_view problem, Warnings& warnings) {
   const std::string message = fmt::format("{}: {}", statement.type->name, problem);
   warnings.add(message, statement.where, message);
-}
-
-bool is_number(const Value* value) {
-  return value && value->kind == Value::Kind::kNumber;
-}
-bool is_vector(const Value* value) {
-  return value && value->kind == Value::Kind::kVector;
 }
 
 int numbers(const Value* value, double* out, int capacity) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "csg/leaves.h"
@@ -36,7 +37,7 @@ struct FragmentsOf {
 
 DocumentBuilder::DocumentBuilder(const std::string& file, const ReadOptions& options,
                                  Warnings& warnings)
-    : options_(options), warnings_(warnings) {
+    : options_(options), warnings_(warnings), last_polished_(polished(last_written_)) {
   document_.model.file = file;
   document_.model.nodes.push_back({.kind = NodeKind::kUnion, .where = {1, 1}});
   scopes_.emplace_back();
@@ -106,7 +107,7 @@ std::optional<Mistake> DocumentBuilder::set_meaning(const Statement& statement,
     case Meaning::kScale:
     case Meaning::kMirror: {
       Affine map = make_transform(statement, warnings_);
-      if (options_.polish && meaning == Meaning::kMultmatrix) map = polished(map);
+      if (options_.polish && meaning == Meaning::kMultmatrix) map = polish(map);
       if (map == Affine{}) break;
       node.kind = NodeKind::kTransform;
       node.payload = static_cast<uint32_t>(model.transforms.size());
@@ -183,6 +184,18 @@ std::optional<Mistake> DocumentBuilder::set_meaning(const Statement& statement,
       break;  // The reader has refused it.
   }
   return std::nullopt;
+}
+
+Affine DocumentBuilder::polish(const Affine& map) {
+  if (!map.is_finite()) return map;
+  // To the bit, for 0 and -0 are two.
+  if (std::memcmp(&map.row, &last_written_.row, sizeof map.row) != 0) {
+    last_written_ = map;
+    last_polished_ = polished(map);
+  }
+  Affine result = last_polished_;
+  result.translation = map.translation;
+  return result;
 }
 
 void DocumentBuilder::set_primitive(Shape shape, Node& node) {

@@ -113,6 +113,7 @@ class DocumentBuilder {
     GivenFragments given;
   };
 
+  Affine polish(const Affine& map);
   std::optional<Mistake> set_meaning(const Statement& statement, std::string_view name,
                                      bool is_dumped_text, OpenStatement& open, Node& node);
   void set_primitive(Shape shape, Node& node);
@@ -129,7 +130,8 @@ class DocumentBuilder {
   uint32_t root_ = OpenStatement::kNone;  ///< the node marked with `!`
   bool has_removed_ = false;              ///< there are nodes to be removed
   bool inherits_fragments_ = false;
-  std::vector<GivenFragments> scopes_;  ///< [0] is the top level, where assignments go
+  Affine last_written_, last_polished_;  ///< many matrices in a row have one rotation
+  std::vector<GivenFragments> scopes_;   ///< [0] is the top level, where assignments go
   std::vector<Pending> pending_;
 };
 

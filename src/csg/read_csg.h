@@ -15,6 +15,7 @@
 
 #include "base/box.h"
 #include "base/result.h"
+#include "csg/text_source.h"
 #include "model/model.h"
 #include "model/statement_counts.h"
 #include "model/warnings.h"
@@ -74,6 +75,11 @@ struct Read {
 /// Errors are kInput with one line `file:line:column: error: ...`. One pass, linear in the text;
 /// nesting costs memory, never stack.
 Result<Read> read_csg(std::string_view text, const std::string& file_name,
+                      const ReadOptions& options = {});
+
+/// The same of a text that need not be in memory. What check_text() looks for in its beginning is
+/// not looked for.
+Result<Read> read_csg(TextSource& source, const std::string& file_name,
                       const ReadOptions& options = {});
 
 }  // namespace whittle

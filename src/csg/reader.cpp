@@ -13,44 +13,37 @@
 #include <vector>
 
 #include "base/workers.h"
+#include "csg/check_text.h"
 #include "csg/statement_reader.h"
+#include "csg/text_pieces.h"
 
 namespace whittle {
 namespace {
-
-/// Where pieces of about so many bytes may end: behind a character that statements begin or end
-/// with, unless it stands in a string or a comment. The last is the end of the text.
-std::vector<size_t> find_cuts(std::string_view text, size_t piece_bytes) {
-  std::vector<size_t> cuts;
-  for (size_t at = piece_bytes; at < text.size(); at += piece_bytes) {
-    const size_t mark = text.find_first_of(";{}", at);
-    if (mark == std::string_view::npos) break;
-    at = mark + 1;
-    cuts.push_back(at);
-  }
-  if (cuts.empty() || cuts.back() < text.size()) cuts.push_back(text.size());
-  return cuts;
-}
 
 /// A piece of the text while it is read.
 struct Piece {
   Piece(const std::string& file, const ReadOptions& options)
       : warnings(file), reader(file, options, warnings) {}
+
+  UninitializedVector<char> buffer;
+  TextPiece text;
   Warnings warnings;
   StatementReader reader;
 };
 
+/// Reads all of a text but its end.
 class PieceReader {
  public:
-  PieceReader(std::string_view text, const std::string& file, const ReadOptions& options,
-              const Workers& workers, size_t piece_bytes, StatementReader& whole)
-      : text_(text),
+  PieceReader(TextSource& source, const std::string& file, const ReadOptions& options,
+              size_t workers, size_t piece_bytes, StatementReader& whole)
+      : source_(source),
+        size_(source.place().size()),
         file_(file),
         options_(options),
-        cuts_(find_cuts(text, piece_bytes)),
-        read_(cuts_.size()),
+        piece_bytes_(piece_bytes),
+        read_((size_ + piece_bytes - 1) / piece_bytes),
         // So many may wait for one that takes longer.
-        ahead_(2 * workers.count() + 2),
+        ahead_(2 * workers + 2),
         whole_(whole) {}
 
   /// What each of the workers does.
@@ -60,34 +53,39 @@ class PieceReader {
     } catch (...) {
       // Nobody is to wait for what does not come.
       const std::lock_guard lock(mutex_);
-      failed_ = true;
+      stop_ = Stop::kThrown;
       moved_on_.notify_all();
       throw;
     }
   }
 
-  /// Once all have done. False: a mistake.
-  bool is_read() const { return !failed_; }
+  /// Once all have done: why not all is read.
+  enum class Stop { kNone, kMistake, kNotReadable, kNul, kThrown };
+  Stop stop() const { return stop_; }
 
  private:
+  bool is_over() const { return stop_ != Stop::kNone || next_ == read_.size(); }
+
   void read_pieces() {
     std::unique_lock lock(mutex_);
     for (;;) {
       // Who reads the piece that is waited for is at work, not waiting.
       moved_on_.wait(lock, [&] { return is_over() || next_ < appended_ + ahead_; });
       if (is_over()) return;
-      const size_t k = next_++;
+      const size_t number = next_++;
       std::unique_ptr<Piece> piece = take_piece();
       lock.unlock();
-      const size_t first = k == 0 ? 0 : cuts_[k - 1];
-      piece->reader.read_piece(text_.substr(first, cuts_[k] - first));
+      piece->text = read_piece(source_, number, piece_bytes_, piece->buffer);
+      const std::string_view text = piece->text.text;
+      const bool has_nul = std::memchr(text.data(), 0, text.size()) != nullptr;
+      if (!has_nul) piece->reader.read_piece(text, piece->text.is_last);
       lock.lock();
-      read_[k] = std::move(piece);
+      if (has_nul) stop_ = Stop::kNul;
+      if (!piece->text.is_whole) stop_ = Stop::kNotReadable;
+      read_[number] = std::move(piece);
       append_what_is_there();
     }
   }
-
-  bool is_over() const { return failed_ || next_ == cuts_.size(); }
 
   std::unique_ptr<Piece> take_piece() {
     if (free_.empty()) return std::make_unique<Piece>(file_, options_);
@@ -97,20 +95,33 @@ class PieceReader {
   }
 
   void append_what_is_there() {
-    for (; !failed_ && appended_ < cuts_.size() && read_[appended_]; ++appended_) {
-      const size_t first = appended_ == 0 ? 0 : cuts_[appended_ - 1], last = cuts_[appended_];
-      if (whole_.offset() == first) whole_.append(read_[appended_]->reader);
-      failed_ = !whole_.read_until(last);
-      whole_.make_room(static_cast<double>(last) / static_cast<double>(text_.size()));
+    for (; !is_stopped() && appended_ < read_.size() && read_[appended_]; ++appended_) {
+      append(*read_[appended_]);
       free_.push_back(std::move(read_[appended_]));
     }
     moved_on_.notify_all();
   }
+  bool is_stopped() const { return stop_ != Stop::kNone; }
 
-  const std::string_view text_;
+  void append(Piece& piece) {
+    if (piece.text.text.empty()) return;
+    if (whole_.offset() == piece.text.first) whole_.append(piece.reader);
+    const size_t last = piece.text.last();
+    if (whole_.is_before(last)) {
+      if (!source_.load()) {
+        stop_ = Stop::kNotReadable;
+      } else if (!whole_.read_until(last)) {
+        stop_ = Stop::kMistake;
+      }
+    }
+    whole_.make_room(static_cast<double>(last) / static_cast<double>(size_));
+  }
+
+  TextSource& source_;
+  const size_t size_;
   const std::string& file_;
   const ReadOptions& options_;
-  const std::vector<size_t> cuts_;
+  const size_t piece_bytes_;
 
   std::mutex mutex_;  ///< of all below
   std::condition_variable moved_on_;
@@ -119,31 +130,55 @@ class PieceReader {
   std::vector<std::unique_ptr<Piece>> free_;
   const size_t ahead_;
   StatementReader& whole_;
-  bool failed_ = false;
+  Stop stop_ = Stop::kNone;
 };
 
-bool read_in_pieces(std::string_view text, const std::string& file, const ReadOptions& options,
-                    size_t piece_bytes, StatementReader& whole) {
+PieceReader::Stop read_in_pieces(TextSource& source, const std::string& file,
+                                 const ReadOptions& options, size_t piece_bytes,
+                                 StatementReader& whole) {
+  if (options.threads == 1) {
+    PieceReader pieces(source, file, options, 1, piece_bytes, whole);
+    pieces.work();
+    return pieces.stop();
+  }
   const Workers workers(options.threads);
-  PieceReader pieces(text, file, options, workers, piece_bytes, whole);
+  PieceReader pieces(source, file, options, workers.count(), piece_bytes, whole);
   workers.for_parts(workers.count(), 1, [&](size_t, size_t, size_t) { pieces.work(); });
-  return pieces.is_read();
+  return pieces.stop();
 }
 
 }  // namespace
 
-Result<Document> read_document(std::string_view text, const std::string& file_name,
+Result<Document> read_document(TextSource& source, const std::string& file_name,
                                const ReadOptions& options, Warnings& warnings, size_t piece_bytes) {
   StatementReader whole(file_name, options, warnings);
-  whole.begin(text);
+  whole.begin(source.place());
+  using Stop = PieceReader::Stop;
+  Stop stop = Stop::kNone;
   // Other threads are not worth their start for less.
-  const bool in_pieces = options.threads != 1 && text.size() > 4 * piece_bytes;
-  if ((in_pieces && !read_in_pieces(text, file_name, options, piece_bytes, whole)) ||
-      !whole.read_rest()) {
-    return Error{ErrorKind::kInput,
-                 message_at(file_name, whole.mistake().where, "error: " + whole.mistake().message)};
+  if (source.place().size() / 4 > piece_bytes) {
+    stop = read_in_pieces(source, file_name, options, piece_bytes, whole);
+  } else {
+    if (Status loaded = source.load(); !loaded) return loaded.error();
+    if (Status text = check_nul(source.place(), file_name); !text) return text.error();
   }
-  return whole.finish();
+  if (stop == Stop::kNone && whole.read_rest()) return whole.finish();
+  // That it is no text at all comes before any mistake in it.
+  if (Status loaded = source.load(); !loaded) return loaded.error();
+  if (Status text = check_nul(source.place(), file_name); !text) return text.error();
+  if (stop == Stop::kNul || stop == Stop::kNotReadable) {
+    // It has changed meanwhile; so what is there now counts.
+    warnings.clear();
+    return read_document(source.place(), file_name, options, warnings, piece_bytes);
+  }
+  return Error{ErrorKind::kInput,
+               message_at(file_name, whole.mistake().where, "error: " + whole.mistake().message)};
+}
+
+Result<Document> read_document(std::string_view text, const std::string& file_name,
+                               const ReadOptions& options, Warnings& warnings, size_t piece_bytes) {
+  TextInMemory source(text);
+  return read_document(source, file_name, options, warnings, piece_bytes);
 }
 
 }  // namespace whittle

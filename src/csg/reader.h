@@ -7,6 +7,7 @@
 
 #include "base/result.h"
 #include "csg/read_csg.h"
+#include "csg/text_source.h"
 #include "model/document.h"
 #include "model/warnings.h"
 
@@ -15,10 +16,14 @@ namespace whittle {
 /// Pieces that a text is read in, side by side, have about so many bytes.
 inline constexpr size_t kPieceBytes = size_t{1} << 18;
 
-/// Reads text that check_text() has passed. `file_name` is what messages call it. The result does
-/// not refer to `text`. Errors are kInput with one line `file:line:column: error: ...`. One pass,
-/// linear in the text; nesting costs memory, never stack. A text of several pieces is read on
-/// `options.threads`; what is read, and what is said, is the same on any number of them.
+/// Reads text that check_text() has passed; that there is no NUL in it is found out here.
+/// `file_name` is what messages call it. The result does not refer to `text`. Errors are kInput
+/// with one line `file:line:column: error: ...`. One pass, linear in the text; nesting costs
+/// memory, never stack. A text of several pieces is read on `options.threads`; what is read, and
+/// what is said, is the same on any number of them.
+Result<Document> read_document(TextSource& source, const std::string& file_name,
+                               const ReadOptions& options, Warnings& warnings,
+                               size_t piece_bytes = kPieceBytes);
 Result<Document> read_document(std::string_view text, const std::string& file_name,
                                const ReadOptions& options, Warnings& warnings,
                                size_t piece_bytes = kPieceBytes);

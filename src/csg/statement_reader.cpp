@@ -26,11 +26,11 @@ StatementReader::StatementReader(const std::string& file, const ReadOptions& opt
 }
 
 bool StatementReader::read_until(size_t stop) {
-  while (lexer_.offset() < stop || stack_.back().single) {
+  while (is_before(stop)) {
     const CsgLexer::Mark after_last = lexer_.mark();
     const char c = lexer_.peek();
     if (c == '\0') {
-      if (is_piece_) lexer_.go_back(after_last);
+      if (is_piece_ && !is_last_) lexer_.go_back(after_last);
       return !lexer_.mistake();
     }
     if (c == '}' && !stack_.back().single) {
@@ -256,7 +256,7 @@ bool StatementReader::read_assignment(std::string_view name, SourceLocation wher
   return true;
 }
 
-void StatementReader::read_piece(std::string_view text) {
+void StatementReader::read_piece(std::string_view text, bool is_last) {
   lexer_ = CsgLexer(text);
   warnings_.clear();
   builder_.clear();
@@ -264,6 +264,7 @@ void StatementReader::read_piece(std::string_view text) {
   constants_.clear();
   stack_.assign(1, builder_.root());
   is_piece_ = true;
+  is_last_ = is_last;
   needs_its_place_ = outer_is_used_ = false;
   most_open_ = 0;
   closes_.clear();

@@ -30,7 +30,8 @@ class StatementReader {
  public:
   StatementReader(const std::string& file, const ReadOptions& options, Warnings& warnings);
 
-  /// Takes the text, all of it. It must outlive this object.
+  /// Takes the text, all of it. It must outlive this object; what is in it is only looked at where
+  /// it is read, not where pieces are appended.
   void begin(std::string_view text) { lexer_ = CsgLexer(text); }
 
   /// Reads on to the first place that is not before `stop` and where a statement may begin. False:
@@ -41,10 +42,12 @@ class StatementReader {
 
   /// Where it is in the text.
   size_t offset() const { return lexer_.offset(); }
+  /// Whether read_until(stop) would read anything.
+  bool is_before(size_t stop) const { return offset() < stop || stack_.back().single; }
 
-  /// Reads a piece of a text, up to the end of its last statement; what was read before is
-  /// forgotten. The text is not needed afterwards.
-  void read_piece(std::string_view text);
+  /// Reads a piece of a text, up to the end of its last statement, or all if it is the last piece;
+  /// what was read before is forgotten. The text must be there until it is appended.
+  void read_piece(std::string_view text, bool is_last);
   /// Appends a piece that begins here, as if it were read. False: it must be read, and nothing has
   /// changed.
   bool append(StatementReader& piece);
@@ -82,6 +85,7 @@ class StatementReader {
 
   // Of a piece: stack_[0] is what it stands in, whatever that is.
   bool is_piece_ = false;
+  bool is_last_ = false;          ///< nothing comes behind it
   bool needs_its_place_ = false;  ///< what it says depends on what it stands in
   bool outer_is_used_ = false;    ///< statements stand directly in that
   size_t most_open_ = 0;          ///< statements at a time
