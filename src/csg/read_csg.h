@@ -43,7 +43,10 @@ using NamedFiles = std::function<Result<std::optional<std::string>>(const std::s
 struct ReadOptions {
   Curves curves = Curves::kAuto;
   bool polish = true;  ///< rotations in `multmatrix` get back what printing took (polish.h)
-  int threads = 0;     ///< that bodies are built on; 0: all
+  int threads = 0;     ///< 0: all
+  /// A text of several times so many bytes is read in pieces of about that, on all threads. What is
+  /// read, and what is said of it, is the same for any.
+  size_t piece_bytes = size_t{1} << 18;
   ReadLimits limits{};
   /// Reads the files that the text names (host/named_files.h). Without it the text can name none.
   NamedFiles named_files{};

@@ -35,13 +35,13 @@ struct Piece {
 class PieceReader {
  public:
   PieceReader(TextSource& source, const std::string& file, const ReadOptions& options,
-              size_t workers, size_t piece_bytes, StatementReader& whole)
+              size_t workers, StatementReader& whole)
       : source_(source),
         size_(source.place().size()),
         file_(file),
         options_(options),
-        piece_bytes_(piece_bytes),
-        read_((size_ + piece_bytes - 1) / piece_bytes),
+
+        read_((size_ + options.piece_bytes - 1) / options.piece_bytes),
         // So many may wait for one that takes longer.
         ahead_(2 * workers + 2),
         whole_(whole) {}
@@ -75,7 +75,7 @@ class PieceReader {
       const size_t number = next_++;
       std::unique_ptr<Piece> piece = take_piece();
       lock.unlock();
-      piece->text = read_piece(source_, number, piece_bytes_, piece->buffer);
+      piece->text = read_piece(source_, number, options_.piece_bytes, piece->buffer);
       const std::string_view text = piece->text.text;
       const bool has_nul = std::memchr(text.data(), 0, text.size()) != nullptr;
       if (!has_nul) piece->reader.read_piece(text, piece->text.is_last);
@@ -121,7 +121,6 @@ class PieceReader {
   const size_t size_;
   const std::string& file_;
   const ReadOptions& options_;
-  const size_t piece_bytes_;
 
   std::mutex mutex_;  ///< of all below
   std::condition_variable moved_on_;
@@ -134,15 +133,14 @@ class PieceReader {
 };
 
 PieceReader::Stop read_in_pieces(TextSource& source, const std::string& file,
-                                 const ReadOptions& options, size_t piece_bytes,
-                                 StatementReader& whole) {
+                                 const ReadOptions& options, StatementReader& whole) {
   if (options.threads == 1) {
-    PieceReader pieces(source, file, options, 1, piece_bytes, whole);
+    PieceReader pieces(source, file, options, 1, whole);
     pieces.work();
     return pieces.stop();
   }
   const Workers workers(options.threads);
-  PieceReader pieces(source, file, options, workers.count(), piece_bytes, whole);
+  PieceReader pieces(source, file, options, workers.count(), whole);
   workers.for_parts(workers.count(), 1, [&](size_t, size_t, size_t) { pieces.work(); });
   return pieces.stop();
 }
@@ -150,14 +148,14 @@ PieceReader::Stop read_in_pieces(TextSource& source, const std::string& file,
 }  // namespace
 
 Result<Document> read_document(TextSource& source, const std::string& file_name,
-                               const ReadOptions& options, Warnings& warnings, size_t piece_bytes) {
+                               const ReadOptions& options, Warnings& warnings) {
   StatementReader whole(file_name, options, warnings);
   whole.begin(source.place());
   using Stop = PieceReader::Stop;
   Stop stop = Stop::kNone;
   // Other threads are not worth their start for less.
-  if (source.place().size() / 4 > piece_bytes) {
-    stop = read_in_pieces(source, file_name, options, piece_bytes, whole);
+  if (source.place().size() / 4 > options.piece_bytes) {
+    stop = read_in_pieces(source, file_name, options, whole);
   } else {
     if (Status loaded = source.load(); !loaded) return loaded.error();
     if (Status text = check_nul(source.place(), file_name); !text) return text.error();
@@ -169,16 +167,16 @@ Result<Document> read_document(TextSource& source, const std::string& file_name,
   if (stop == Stop::kNul || stop == Stop::kNotReadable) {
     // It has changed meanwhile; so what is there now counts.
     warnings.clear();
-    return read_document(source.place(), file_name, options, warnings, piece_bytes);
+    return read_document(source.place(), file_name, options, warnings);
   }
   return Error{ErrorKind::kInput,
                message_at(file_name, whole.mistake().where, "error: " + whole.mistake().message)};
 }
 
 Result<Document> read_document(std::string_view text, const std::string& file_name,
-                               const ReadOptions& options, Warnings& warnings, size_t piece_bytes) {
+                               const ReadOptions& options, Warnings& warnings) {
   TextInMemory source(text);
-  return read_document(source, file_name, options, warnings, piece_bytes);
+  return read_document(source, file_name, options, warnings);
 }
 
 }  // namespace whittle

@@ -1,7 +1,6 @@
 // From .csg text to what it says.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -13,19 +12,14 @@
 
 namespace whittle {
 
-/// Pieces that a text is read in, side by side, have about so many bytes.
-inline constexpr size_t kPieceBytes = size_t{1} << 18;
-
 /// Reads text that check_text() has passed; that there is no NUL in it is found out here.
 /// `file_name` is what messages call it. The result does not refer to `text`. Errors are kInput
 /// with one line `file:line:column: error: ...`. One pass, linear in the text; nesting costs
 /// memory, never stack. A text of several pieces is read on `options.threads`; what is read, and
 /// what is said, is the same on any number of them.
 Result<Document> read_document(TextSource& source, const std::string& file_name,
-                               const ReadOptions& options, Warnings& warnings,
-                               size_t piece_bytes = kPieceBytes);
+                               const ReadOptions& options, Warnings& warnings);
 Result<Document> read_document(std::string_view text, const std::string& file_name,
-                               const ReadOptions& options, Warnings& warnings,
-                               size_t piece_bytes = kPieceBytes);
+                               const ReadOptions& options, Warnings& warnings);
 
 }  // namespace whittle
