@@ -31,10 +31,11 @@ size_t read_at(int descriptor, size_t first, char* out, size_t count) {
 }  // namespace
 
 std::unique_ptr<FileText> FileText::open(const std::string& path, size_t most_bytes) {
-  // A pipe is not waited for.
+  // Not even opened: a pipe's writer would see that its reader goes.
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return nullptr;
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return nullptr;
-  struct stat status {};
   const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
   const auto size = static_cast<size_t>(status.st_size);
   if (!is_file || size == 0 || size > most_bytes) {
