@@ -16,8 +16,14 @@ Result<Read> read_csg(std::string_view text, const std::string& file_name,
                       const ReadOptions& options) {
   const Result<std::string_view> checked = check_text(text, file_name, options.limits);
   if (!checked) return checked.error();
+  TextInMemory source(*checked);
+  return read_csg(source, file_name, options);
+}
+
+Result<Read> read_csg(TextSource& source, const std::string& file_name,
+                      const ReadOptions& options) {
   Warnings warnings(file_name);
-  Result<Document> document = read_document(*checked, file_name, options, warnings);
+  Result<Document> document = read_document(source, file_name, options, warnings);
   if (!document) return document.error();
   const EvaluateOptions evaluating{.curves = options.curves,
                                    .most_facets = options.limits.facets,

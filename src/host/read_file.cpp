@@ -8,12 +8,14 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "host/file_text.h"
 #include "host/input_file.h"
 #include "host/input_kinds.h"
 #include "host/named_files.h"
@@ -36,9 +38,10 @@ Result<Read> rewrite(Result<Read> read, Rewrite&& in_other_words) {
   return read;
 }
 
-/// Reads the text of a file, which may name others; `path` is what messages call it.
-Result<Read> read_text_of(const std::string& path, std::string_view text,
-                          const FileOptions& options) {
+/// Reads the text of a file (a string_view or a TextSource), which may name others; `path` is what
+/// messages call it.
+template <class Text>
+Result<Read> read_text_of(const std::string& path, Text&& text, const FileOptions& options) {
   const std::string folder = fs::path(path).parent_path().string();
   std::vector<std::string> files;
   ReadOptions reading = options.reading;
@@ -100,17 +103,35 @@ Result<Read> read_shape(const std::string& path, const FileOptions& options) {
   });
 }
 
+/// A file that is too large to be in memory before it is read; null if it is not, or what
+/// check_text() or describe_foreign() may have something to say of.
+std::unique_ptr<FileText> large_text(const std::string& path, size_t most_bytes) {
+  constexpr size_t kLarge = size_t{1} << 20, kHead = 1 << 12;
+  std::unique_ptr<FileText> text = path == "-" ? nullptr : FileText::open(path, most_bytes);
+  if (!text || text->place().size() < kLarge) return nullptr;
+  UninitializedVector<char> buffer;
+  const std::string_view head = text->read(0, kHead, buffer);
+  const bool is_plain = std::ranges::all_of(
+      head.substr(0, 4), [](char c) { return (c >= ' ' && c < 0x7f) || c == '\n' || c == '\t'; });
+  return is_plain && !describe_foreign(head) ? std::move(text) : nullptr;
+}
+
 Result<Read> read_plain(const std::string& path, const FileOptions& options) {
   const std::string name = path == "-" ? "<stdin>" : path;
-  const Result<std::string> text =
-      read_text(path, std::min(options.reading.limits.bytes, kMostTextBytes));
+  const size_t most_bytes = std::min(options.reading.limits.bytes, kMostTextBytes);
+  const auto with_file = [&](Result<Read> read) {
+    if (read && path != "-") read->files.insert(read->files.begin(), path);
+    return read;
+  };
+  if (const std::unique_ptr<FileText> large = large_text(path, most_bytes)) {
+    return with_file(read_text_of(path, *large, options));
+  }
+  const Result<std::string> text = read_text(path, most_bytes);
   if (!text) return text.error();
   if (const std::optional<std::string> foreign = describe_foreign(*text)) {
     return Error{ErrorKind::kInput, fmt::format("{}: error: {}", name, *foreign)};
   }
-  Result<Read> read = read_text_of(path, *text, options);
-  if (read && path != "-") read->files.insert(read->files.begin(), path);
-  return read;
+  return with_file(read_text_of(path, *text, options));
 }
 
 }  // namespace
