@@ -1,6 +1,5 @@
 # Every outside library, its Debian package, and why it is here.
 find_package(Threads REQUIRED)
-find_package(TBB REQUIRED)             # libtbb-dev: threads over tiles and cells
 # libhwy-dev: vector lanes. Headers alone: src/base/instruction_set.h says why. Only what checks them
 # is in its library.
 find_package(hwy REQUIRED)

@@ -1,6 +1,6 @@
 # What find_package(whittle) reads. The archives need these when a program is linked.
 include(CMakeFindDependencyMacro)
-find_dependency(TBB)
+find_dependency(Threads)
 find_dependency(fmt)
 find_dependency(PNG)
 find_dependency(ZLIB)

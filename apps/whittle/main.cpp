@@ -85,7 +85,7 @@ void keep_memory() {
 #endif
 }
 
-/// For what no one can catch: a thread that oneTBB cannot start ends the program from within it.
+/// For what no one can catch: what is thrown through a library that is not written in C++.
 [[noreturn]] void end_clearly() {
   // Several threads may get here at once; the first one speaks for all.
   static std::atomic_flag is_ending;
