@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/limit_hint.h"
 #include "csg/views.h"
 
 namespace whittle {
@@ -125,9 +126,8 @@ void StatementReader::close_outer() {
 bool StatementReader::admit_depth(SourceLocation where) {
   most_open_ = std::max(most_open_, stack_.size());
   if (stack_.size() <= options_.limits.depth) return true;
-  return lexer_.fail(where, fmt::format("statements are nested deeper than the limit of {}; "
-                                        "--limit depth=N raises it",
-                                        options_.limits.depth));
+  return lexer_.fail(where, fmt::format("statements are nested deeper than the limit of {}{}",
+                                        options_.limits.depth, limit_hint("depth")));
 }
 
 Modifiers StatementReader::read_modifiers() {

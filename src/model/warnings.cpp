@@ -40,6 +40,7 @@ void Warnings::clear() {
   shown_.clear();
   counts_.clear();
   unsupported_.reset();
+  missing_file_.clear();
 }
 
 void Warnings::append(const Warnings& piece, SourceLocation start) {
