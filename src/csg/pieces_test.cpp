@@ -83,8 +83,7 @@ constexpr const char* kWords[] = {
     "what_else();",
     "cube(size = bad, 3);",
     "cube(nan);",
-    "polyhedron(points = [[0,0,0],[3,0,0],[0,3,0],[0,0,3]], faces = "
-    "[[0,1,2],[0,3,1],[1,3,2],[2,3,0]]);",
+    "polyhedron([[0,0,0],[3,0,0],[0,3,0],[0,0,3]], [[0,1,2],[0,3,1],[1,3,2],[2,3,0]]);",
     "text(text = \"a;{\", size = 3);",
     "cylinder(h = 2, r = 1, what = \";\");",
     "import(file = \"none;.stl\");",
