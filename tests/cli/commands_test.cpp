@@ -286,11 +286,12 @@ TEST_F(Bench, JsonIsAnArrayWithAnObjectAFile) {
     EXPECT_EQ(one["half_spaces"], 9);
     EXPECT_EQ(one["wrong"], 0);
     for (const char* name :
-         {"parse_ms", "lower_ms", "subdivide_ms", "trace_ms", "shade_ms", "cold_ms",
+         {"parse_ms", "lower_ms", "subdivide_ms", "trace_ms", "shade_ms", "cold_ms", "file_ms",
           "peak_memory_bytes", "cells", "leaves", "leaf_visits_per_ray", "cell_visits_per_ray",
           "literals_per_ray", "checked"})
       EXPECT_GT(one[name].get<double>(), 0) << name;
     EXPECT_GE(one["cold_ms"].get<double>(), one["trace_ms"].get<double>() / 2);
+    EXPECT_GE(one["file_ms"].get<double>(), one["trace_ms"].get<double>() / 2);
     EXPECT_EQ(one["paper_ms"]["S"], one["subdivide_ms"]);
     EXPECT_EQ(one["paper_ms"]["T"], one["trace_ms"]);
     EXPECT_EQ(one["paper_ms"]["cold"], one["cold_ms"]);
@@ -299,7 +300,8 @@ TEST_F(Bench, JsonIsAnArrayWithAnObjectAFile) {
 
 TEST_F(Bench, TheTableNamesTheStages) {
   const Ended done = good({"bench", "part.csg", "--repeat", "1", "--imgsize", "32,32"});
-  for (const char* stage : {"parse", "lower", "subdivide", "trace", "shade", "cold", "memory"})
+  for (const char* stage :
+       {"parse", "lower", "subdivide", "trace", "shade", "cold", "file", "memory"})
     EXPECT_NE(done.out.find(stage), std::string::npos) << stage;
 }
 
