@@ -43,6 +43,18 @@ bool may_be_one_over(const HalfSpace& a, const Reach& reach, const HalfSpace& b)
   return !(std::fabs(dot(m, foot - b.center)) + parting * reach.radius > 1.01 * reach.tolerance);
 }
 
+bool may_be_one(const HalfSpace& a, const Reach& a_reach, const HalfSpace& b,
+                const Reach& b_reach) {
+  return may_be_one_over(a, a_reach, b) || may_be_one_over(b, b_reach, a);
+}
+
+bool may_be_one(const Fingerprint& a, const Fingerprint& b) {
+  const double slack = std::max(a.slack, b.slack);
+  for (size_t i = 0; i < a.point.size(); ++i)
+    if (std::fabs(a.point[i] - b.point[i]) > slack) return false;
+  return true;
+}
+
 /// A hash table without keys: what has one slot is together.
 template <class Slot>
 class SlotTable {
@@ -255,19 +267,6 @@ std::vector<uint32_t> FaceSieve::sift(std::span<const HalfSpace> half_spaces,
 }
 
 /// Whether two faces of a kind may be one over the reach of either's primitive.
-bool FaceSieve::may_be_one(const HalfSpace& a, const Reach& a_reach, const HalfSpace& b,
-                           const Reach& b_reach, Kind kind) const {
-  if (kind == kPlane) return may_be_one_over(a, a_reach, b) || may_be_one_over(b, b_reach, a);
-  const PointIndex::Point p = fingerprint_point(a, kind == kBall, radius_),
-                          q = fingerprint_point(b, kind == kBall, radius_);
-  const double slack =
-      std::max(fingerprint_slack(a_reach, radius_), fingerprint_slack(b_reach, radius_));
-  for (size_t i = 0; i < p.size(); ++i)
-    if (std::fabs(p[i] - q[i]) > slack) return false;
-  return true;
-}
-
-/// Of some faces those that have others near them: now all that are in the cells are looked at.
 std::vector<uint32_t> FaceSieve::look_closely(std::span<const HalfSpace> half_spaces,
                                               const ReachOf& reach_of,
                                               std::span<const uint32_t> some,
@@ -277,11 +276,15 @@ std::vector<uint32_t> FaceSieve::look_closely(std::span<const HalfSpace> half_sp
   SlotTable<uint32_t> residents(kFewSlots * n, kNone, workers),
       guests(kFewSlots * n * guests_each + 1, kNone, workers);
   UninitializedVector<uint32_t> next_resident(n), next_guest(n * guests_each);
+  // Crowds have many more pairs than faces.
+  UninitializedVector<Fingerprint> fingerprints(n);
   for_chunks(workers, n, [&](size_t first, size_t last, std::vector<uint32_t>&) {
     for (size_t k = first; k < last; ++k) {
       const HalfSpace& h = half_spaces[some[k]];
       const uint8_t known = known_[some[k]];
       const Kind kind = kind_of(known);
+      if (kind != kPlane)
+        fingerprints[k] = fingerprint(h, kind == kBall, reach_of(some[k]), radius_);
       const auto put = [](SlotTable<uint32_t>& table, uint64_t hash, size_t place) {
         return table[table.index(hash)].exchange(uint32_t(place), std::memory_order_relaxed);
       };
@@ -303,8 +306,10 @@ std::vector<uint32_t> FaceSieve::look_closely(std::span<const HalfSpace> half_sp
       bool any = false;
       const auto meet = [&](size_t other) {
         if (other == k || kind_of(known_[some[other]]) != kind) return;
-        any = ++met > kMostMet ||
-              may_be_one(h, reach, half_spaces[some[other]], reach_of(some[other]), kind);
+        any =
+            ++met > kMostMet ||
+            (kind == kPlane ? may_be_one(h, reach, half_spaces[some[other]], reach_of(some[other]))
+                            : may_be_one(fingerprints[k], fingerprints[other]));
       };
       const auto meet_residents = [&](uint64_t hash) {
         for (uint32_t i = residents.at(hash); i != kNone && !any; i = next_resident[i]) meet(i);

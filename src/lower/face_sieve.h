@@ -73,8 +73,6 @@ class FaceSieve {
   template <class Visit>
   void visit_coarser(uint8_t known, const Visit& visit) const;
   size_t most_levels() const;
-  bool may_be_one(const HalfSpace& a, const Reach& a_reach, const HalfSpace& b,
-                  const Reach& b_reach, Kind kind) const;
 
   std::vector<uint32_t> sift(std::span<const HalfSpace> half_spaces, const Workers* workers);
   std::vector<uint32_t> look_closely(std::span<const HalfSpace> half_spaces,

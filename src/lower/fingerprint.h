@@ -25,4 +25,14 @@ PointIndex::Point fingerprint_point(const HalfSpace& h, bool is_ball, double reg
 /// in proportion to the tolerance.
 double fingerprint_slack(const Reach& reach, double region);
 
+/// Both of one surface.
+struct Fingerprint {
+  PointIndex::Point point{};
+  double slack = 0;
+};
+inline Fingerprint fingerprint(const HalfSpace& h, bool is_ball, const Reach& reach,
+                               double region) {
+  return {fingerprint_point(h, is_ball, region), fingerprint_slack(reach, region)};
+}
+
 }  // namespace whittle

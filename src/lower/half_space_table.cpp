@@ -50,9 +50,8 @@ bool is_on_both_nappes(const HalfSpace& h, std::span<const Vec3> outline) {
 HalfSpaceTable::HalfSpaceTable(double radius, double tolerance)
     : radius_(radius), step_(tolerance > 0 ? 4 * tolerance : 1) {}
 
-HalfSpaceTable::Fingerprint HalfSpaceTable::place_of(const HalfSpace& h, const Reach& reach) const {
-  Fingerprint r{fingerprint_point(h, reach.ball_reach > 0, radius_),
-                fingerprint_slack(reach, radius_)};
+Fingerprint HalfSpaceTable::place_of(const HalfSpace& h, const Reach& reach) const {
+  Fingerprint r = fingerprint(h, reach.ball_reach > 0, reach, radius_);
   for (double& x : r.point) {
     // A model of 1e-320 overflows here: all that cannot be told apart any more goes to one place.
     x = std::fabs(x) < 1e3 ? x * kCellsPerUnit : 0;

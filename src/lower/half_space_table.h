@@ -46,11 +46,7 @@ class HalfSpaceTable {
   bool same_plane(uint32_t known, const HalfSpace& h, const Reach& reach, bool complement) const;
   bool same_curve(uint32_t known, const Reach& reach, const Outline& outline) const;
 
-  /// Where a curved surface stands, and how far an equal one can be; in the units of the indices.
-  struct Fingerprint {
-    PointIndex::Point point;
-    double slack = 0;
-  };
+  /// In the units of the indices.
   Fingerprint place_of(const HalfSpace& h, const Reach& reach) const;
 
   /// Half-spaces in two indices. One is lonely if no other was near it when it was added; any place
