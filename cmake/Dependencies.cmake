@@ -1,4 +1,7 @@
 # Every outside library, its Debian package, and why it is here.
+
+# A project that has whittle as a part of itself must see them, too.
+set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)
 find_package(Threads REQUIRED)
 # libhwy-dev: vector lanes. Headers alone: src/base/instruction_set.h says why. Only what checks them
 # is in its library.
@@ -8,21 +11,29 @@ if(WHITTLE_SANITIZE)
 else()
   add_compile_definitions(HWY_IS_DEBUG_BUILD=0)
 endif()
-find_package(CLI11 REQUIRED)           # libcli11-dev: the command line
 find_package(fmt REQUIRED)             # libfmt-dev: text
-find_package(nlohmann_json REQUIRED)   # nlohmann-json3-dev: machine-readable output
 find_package(PNG REQUIRED)             # libpng-dev: pictures
 find_package(ZLIB REQUIRED)            # zlib1g-dev: files in archives; libpng needs it too
 find_package(OpenEXR REQUIRED)         # libopenexr-dev: facts as pictures; opened when the first one is met
 # libqhull-dev: convex hulls. Its own CMake package wants Qhull's programs too. Linked whole, so that it
 # costs nothing when the program starts.
 find_path(QHULL_INCLUDE libqhull_r/libqhull_r.h REQUIRED)
-find_library(QHULL_LIBRARY libqhullstatic_r.a REQUIRED)
+find_library(QHULL_ARCHIVE libqhullstatic_r.a REQUIRED)
+# The archive cannot be a part of a shared library, so those who use whittle's get the shared one.
+find_library(QHULL_SHARED qhull_r REQUIRED)
+set(QHULL_LIBRARY ${QHULL_SHARED})
+if(PROJECT_IS_TOP_LEVEL)
+  set(QHULL_LIBRARY $<BUILD_INTERFACE:${QHULL_ARCHIVE}> $<INSTALL_INTERFACE:${QHULL_SHARED}>)
+endif()
 find_package(PkgConfig REQUIRED)       # pkgconf: finds what ships no CMake package:
 # libpolyclipping-dev: Booleans and offsets of flat shapes, the ones that OpenSCAD uses
-pkg_check_modules(polyclipping REQUIRED IMPORTED_TARGET polyclipping)
+pkg_check_modules(polyclipping REQUIRED IMPORTED_TARGET GLOBAL polyclipping)
 # libfreetype-dev, libharfbuzz-dev, libfontconfig-dev: text; opened when the first one is met
 pkg_check_modules(fonts REQUIRED freetype2 harfbuzz fontconfig)
+if(WHITTLE_PROGRAM)
+  find_package(CLI11 REQUIRED)         # libcli11-dev: the command line
+  find_package(nlohmann_json REQUIRED) # nlohmann-json3-dev: machine-readable output
+endif()
 if(WHITTLE_VULKAN)
   # libvulkan-dev: headers; glslc: compiles the shaders; libvulkan-volk-dev: finds the loader when the
   # program runs.

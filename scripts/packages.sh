@@ -37,6 +37,7 @@ test_packages=(
   openscad            # flattens .scad files; a picture to agree with
   xvfb                # a display for it
   make                # reads the dependencies that -d writes
+  lowdown             # makes the manual page
 )
 
 report_packages=(

@@ -20,10 +20,31 @@ if(NOT start STREQUAL "89504e470d0a1a0a")
   message(FATAL_ERROR "the installed program wrote no PNG")
 endif()
 
+file(STRINGS ${prefix}/share/man/man1/whittle.1 sections REGEX "^(Synopsis|Exit codes|Files)$")
+list(LENGTH sections count)
+if(count LESS 2)
+  message(FATAL_ERROR "the manual page has the sections ${sections}")
+endif()
+
 must_work(${CMAKE_COMMAND} -G ${generator} -S ${CMAKE_CURRENT_LIST_DIR}/consumer -B consumer
           -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_CXX_COMPILER=${compiler} -D example=${example})
 must_work(${CMAKE_COMMAND} --build consumer)
-must_work(consumer/consumer ${model})
-if(NOT output MATCHES "seen: primitive [1-9][0-9]*, line [1-9][0-9]*\nstopped")
-  message(FATAL_ERROR "the example said: ${output}")
-endif()
+function(must_see program)
+  must_work(${program} ${model})
+  if(NOT output MATCHES "seen: primitive [1-9][0-9]*, line [1-9][0-9]*\nstopped")
+    message(FATAL_ERROR "the example said: ${output}")
+  endif()
+endfunction()
+must_see(consumer/consumer)
+
+# Without CMake.
+file(GLOB_RECURSE package ${prefix}/*/whittle.pc)
+cmake_path(GET package PARENT_PATH package_dir)
+set(ENV{PKG_CONFIG_PATH} ${package_dir})
+must_work(sh -c "'${compiler}' -std=c++20 '${example}' -o plain $(pkg-config --cflags --libs whittle)")
+must_see(./plain)
+
+# As a part of another project: without the program and what only that needs.
+must_work(${CMAKE_COMMAND} -G ${generator} -S ${CMAKE_CURRENT_LIST_DIR}/part -B part
+          -D CMAKE_CXX_COMPILER=${compiler} -D whittle=${source} -D WHITTLE_VULKAN=${vulkan}
+          -D CMAKE_DISABLE_FIND_PACKAGE_CLI11=ON -D CMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON)
