@@ -290,7 +290,7 @@ class ChunkDecoder {
   Frame& frame_;
   int first_y_;
   bool begun_ = false;
-  exr_decode_pipeline_t pipe_ = EXR_DECODE_PIPELINE_INITIALIZER;
+  exr_decode_pipeline_t pipe_{};
 };
 
 /// What the header of an opened file is about, and the facts.

@@ -21,7 +21,7 @@ Picture random_picture(int width, int height, uint32_t seed) {
   return picture;
 }
 
-void write_all(const std::string& path, const std::string& bytes) {
+void write_bytes(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
@@ -31,7 +31,7 @@ RC_GTEST_PROP(Png, WhatIsWrittenIsReadBack, ()) {
   const TestFolder folder;
   const std::string file_name = folder / "x.png";
   const std::string& path = file_name;
-  write_all(path, encode_png(p, true));
+  write_bytes(path, encode_png(p, true));
   const Result<Picture> read = read_png(path);
   RC_ASSERT(bool(read));
   RC_ASSERT(read->width == p.width && read->height == p.height && read->rgba == p.rgba);
@@ -43,7 +43,7 @@ TEST(Png, WithoutAlphaTheColorsStay) {
   const TestFolder folder;
   const std::string file_name = folder / "x.png";
   const std::string& path = file_name;
-  write_all(path, encode_png(p, false));
+  write_bytes(path, encode_png(p, false));
   const Result<Picture> read = read_png(path);
   ASSERT_TRUE(read);
   for (size_t i = 0; i < p.rgba.size(); ++i) {
@@ -75,7 +75,7 @@ TEST(Png, WhatIsNoPngIsAnError) {
   EXPECT_FALSE(read_png("/no/such/file.png"));
   std::ofstream(path) << "hello";
   EXPECT_FALSE(read_png(path));
-  write_all(path, encode_png(random_picture(40, 40, 2), true));
+  write_bytes(path, encode_png(random_picture(40, 40, 2), true));
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
   const Result<Picture> read = read_png(path);
   ASSERT_FALSE(read);
