@@ -1,0 +1,21 @@
+// From a scene of planes to the boundary of its solid, exactly.
+#pragma once
+
+#include "base/result.h"
+#include "base/workers.h"
+#include "boundary/solid_mesh.h"
+#include "lower/scene.h"
+
+namespace whittle {
+
+struct BoundaryStats {
+  size_t leaves = 0, contacts = 0, pieces = 0, outline_edges = 0, shared_edges = 0;
+  bool asked_all_contacts = false;  ///< cells disagreed by less than the boundaries' slack
+};
+
+/// The boundary of the scene's solid; nothing of an empty one. A kInput error if the solid has no
+/// end, or curved surfaces. The same whatever the number of threads.
+Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers,
+                                 BoundaryStats* stats = nullptr);
+
+}  // namespace whittle

@@ -1,0 +1,144 @@
+#include "boundary/piece_maker.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace whittle {
+
+/// A plane's part over a rectangle square to an axis to which the plane is not parallel. Runs
+/// counter-clockwise seen from the plane's positive side.
+PieceMaker::Polygon PieceMaker::rectangle(uint32_t plane, int axis, const CellSides& sides) {
+  const size_t u = size_t(axis + 1) % 3, v = size_t(axis + 2) % 3;
+  const std::array<uint32_t, 4> around = {sides.lo[v], sides.hi[u], sides.hi[v], sides.lo[u]};
+  Polygon polygon;
+  const bool is_turned = geometry_.plane(plane).n[size_t(axis)] < 0;
+  for (size_t i = 0; i < 4; ++i) {
+    const size_t at = is_turned ? 3 - i : i, before = (at + 3) % 4;
+    const uint32_t point = uint32_t(points_.size());
+    points_.push_back(geometry_.meet(plane, around[before], around[at]));
+    polygon.push_back({point, is_turned ? around[before] : around[at]});
+  }
+  return polygon;
+}
+
+void PieceMaker::look(const Polygon& polygon, uint32_t by, bool& has_below, bool& has_above) {
+  signs_.clear();
+  has_below = has_above = false;
+  for (const Corner& corner : polygon) {
+    const PlaneSide side = geometry_.side(points_[corner.point], by);
+    signs_.push_back(side);
+    has_below = has_below || side < 0;
+    has_above = has_above || side > 0;
+  }
+}
+
+void PieceMaker::cut(const Polygon& polygon, uint32_t plane, uint32_t by, PlaneSide keep,
+                     Polygon& part) {
+  part.clear();
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const int here = signs_[i] * keep, after = signs_[(i + 1) % polygon.size()] * keep;
+    const Corner& corner = polygon[i];
+    if (here >= 0) part.push_back({corner.point, here == 0 && after < 0 ? by : corner.edge_plane});
+    if (here * after >= 0) continue;
+    const uint32_t point = uint32_t(points_.size());
+    points_.push_back(geometry_.meet(plane, corner.edge_plane, by));
+    part.push_back({point, here > 0 ? by : corner.edge_plane});
+  }
+}
+
+void PieceMaker::clip(Polygon& polygon, uint32_t by, PlaneSide keep, uint32_t plane) {
+  if (polygon.empty()) return;
+  bool has_below, has_above;
+  look(polygon, by, has_below, has_above);
+  const bool has_kept = keep < 0 ? has_below : has_above,
+             has_rest = keep < 0 ? has_above : has_below;
+  if (!has_kept) polygon.clear();
+  if (!has_kept || !has_rest) return;
+  Polygon part;
+  cut(polygon, plane, by, keep, part);
+  polygon = std::move(part);
+}
+
+void PieceMaker::fill(Polygon polygon, uint32_t plane, const LeafFunction& below,
+                      const LeafFunction& above, Pieces& out) {
+  const uint32_t own = local_.add(plane);
+  uint32_t owner = below.owner(scene_, own);
+  if (const uint32_t other = above.owner(scene_, own);
+      owner == kSharedOwner || (other != kSharedOwner && other < owner))
+    owner = other;
+  open_.clear();
+  open_.push_back({std::move(polygon), std::vector<PlaneSide>(local_.all().size(), 0)});
+  while (!open_.empty()) {
+    Open part = std::move(open_.back());
+    open_.pop_back();
+    // The plane itself has each of the two on one side.
+    part.sides[own] = -1;
+    const LeafFunction::Answer low = below.at(part.sides);
+    part.sides[own] = 1;
+    const LeafFunction::Answer high = above.at(part.sides);
+    if (low.value && high.value) {
+      if (*low.value != *high.value) emit(part.polygon, sheet_of(plane, *high.value), owner, out);
+      continue;
+    }
+    const uint32_t asks = low.value ? high.asks : low.asks;
+    const uint32_t by = local_.all()[asks];
+    bool has_below, has_above;
+    look(part.polygon, by, has_below, has_above);
+    if (!has_below || !has_above) {
+      part.sides[asks] = has_above ? 1 : -1;
+      open_.push_back(std::move(part));
+      continue;
+    }
+    Open other{{}, part.sides};
+    Polygon rest;
+    cut(part.polygon, plane, by, 1, other.polygon);
+    cut(part.polygon, plane, by, -1, rest);
+    other.sides[asks] = 1;
+    part.sides[asks] = -1;
+    part.polygon = std::move(rest);
+    open_.push_back(std::move(part));
+    open_.push_back(std::move(other));
+  }
+}
+
+void PieceMaker::emit(const Polygon& polygon, Sheet sheet, uint32_t owner, Pieces& out) {
+  const uint32_t first = uint32_t(out.corners.size()), count = uint32_t(polygon.size());
+  const bool is_turned = sheet & 1;
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t at = is_turned ? count - 1 - i : i;
+    const uint32_t edge = is_turned ? (at + count - 1) % count : at;
+    out.corners.push_back({uint32_t(out.points.size()), polygon[edge].edge_plane});
+    out.points.push_back(points_[polygon[at].point]);
+  }
+  out.pieces.push_back({sheet, owner, first, count});
+}
+
+void PieceMaker::within(CellLink leaf, const CellSides& cell, Pieces& out) {
+  local_.clear();
+  below_.set(leaf, half_spaces_, local_);
+  const std::vector<uint32_t> planes(local_.all().begin(), local_.all().end());
+  for (const uint32_t plane : planes) {
+    const auto is_side = [&](const std::array<uint32_t, 3>& sides) {
+      return std::find(sides.begin(), sides.end(), plane) != sides.end();
+    };
+    if (is_side(cell.lo) || is_side(cell.hi)) continue;
+    points_.clear();
+    const int axis = largest_axis(geometry_.plane(plane));
+    Polygon polygon = rectangle(plane, axis, cell);
+    clip(polygon, cell.lo[size_t(axis)], 1, plane);
+    clip(polygon, cell.hi[size_t(axis)], -1, plane);
+    if (!polygon.empty()) fill(std::move(polygon), plane, below_, below_, out);
+  }
+}
+
+void PieceMaker::between(CellLink below, CellLink above, int axis, const CellSides& sides,
+                         Pieces& out) {
+  local_.clear();
+  below_.set(below, half_spaces_, local_);
+  above_.set(above, half_spaces_, local_);
+  points_.clear();
+  const uint32_t plane = sides.lo[size_t(axis)];
+  fill(rectangle(plane, axis, sides), plane, below_, above_, out);
+}
+
+}  // namespace whittle
