@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/timing.h"
 #include "boundary/cell_walk.h"
 #include "boundary/fill_faces.h"
 #include "boundary/finish.h"
@@ -79,12 +80,24 @@ std::vector<std::pair<Sheet, uint32_t>> owners_of(const Pieces& pieces) {
 }  // namespace
 
 Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, BoundaryStats* stats) {
-  if (!scene.bounded) return Error{ErrorKind::kInput, "the solid has no end"};
+  if (!scene.bounded)
+    return Error{ErrorKind::kInput, "the solid has no end, so no file holds all of it"};
   const auto is_curved = [](const HalfSpace& h) { return !h.is_plane(); };
   if (std::any_of(scene.half_spaces.begin(), scene.half_spaces.end(), is_curved))
-    return Error{ErrorKind::kInput, "the solid has true curves"};
+    return Error{ErrorKind::kInput,
+                 "true curves have no facets (--curves facets gives them some; more than 2048 "
+                 "count as a true "
+                 "curve)"};
   if (scene.region.is_empty()) return SolidMesh{};
 
+  BoundaryStats ignored;
+  BoundaryStats& s = stats != nullptr ? *stats : ignored;
+  s = {};
+  Stopwatch watch;
+  const auto lap = [&watch](double& time) {
+    time += watch.milliseconds();
+    watch = Stopwatch();
+  };
   const ExactGrid grid(scene.region);
   PlaneTable planes;
   std::vector<PlacedHalfSpace> half_spaces(scene.half_spaces.size());
@@ -93,6 +106,9 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
   const CellTree tree = open_cells(scene, {}, &workers);
   refine_all(tree, workers);
   const std::vector<WalkedLeaf> leaves = walk_leaves(tree, grid, planes);
+
+  s.leaves = leaves.size();
+  lap(s.cells_ms);
 
   const ExactGeometry geometry(planes);
   PieceCollector collector(scene, geometry, half_spaces, workers);
@@ -123,19 +139,24 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
           maker.between(contact.below, contact.above, contact.axis, contact.rectangle, out);
         },
         pieces);
+    lap(s.cut_ms);
     LineTable lines(geometry);
     Result<FaceOutlines> outlines = join(pieces, geometry, lines);
+    lap(s.join_ms);
     if (!outlines && asks_all) return outlines.error();
     if (!outlines) {
       asks_all = true;
       continue;
     }
-    if (stats != nullptr) {
-      *stats = {leaves.size(),          contacts.size(),        pieces.pieces.size(),
-                outlines->edges.size(), outlines->shared_edges, asks_all};
-    }
-    return finish(fill(*outlines, geometry, workers), *outlines, owners_of(pieces), geometry,
-                  grid.per_unit(), scene.origin);
+    s.contacts = contacts.size();
+    s.pieces = pieces.pieces.size();
+    s.outline_edges = outlines->edges.size() / 2;
+    s.shared_edges = outlines->shared_edges;
+    s.asked_all_contacts = asks_all;
+    SolidMesh mesh = finish(fill(*outlines, geometry, workers), *outlines, owners_of(pieces),
+                            geometry, grid.per_unit(), scene.origin);
+    lap(s.fill_ms);
+    return mesh;
   }
 }
 
