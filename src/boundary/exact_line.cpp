@@ -21,9 +21,7 @@ ExactLine LineTable::make(uint32_t plane_a, uint32_t plane_b) const {
     if (magnitude(line.direction[size_t(i)]) > magnitude(line.direction[size_t(line.axis)]))
       line.axis = i;
   // y x (a x b) = a (b.y) - b (a.y), and on the line these products are known.
-  for (size_t i = 0; i < 3; ++i)
-    line.moment[i] =
-        WideInt<3>(Int128(a.n[i])) * WideInt<3>(b.d) - WideInt<3>(Int128(b.n[i])) * WideInt<3>(a.d);
+  for (size_t i = 0; i < 3; ++i) line.moment[i] = product(b.d, a.n[i]) - product(a.d, b.n[i]);
   if (line.direction[size_t(line.axis)] < 0) {
     for (Int128& component : line.direction) component = -component;
     for (WideInt<3>& component : line.moment) component = -component;
@@ -36,7 +34,8 @@ LineTable::Key LineTable::key(const ExactLine& line) {
   const size_t axis = size_t(line.axis), u = (axis + 1) % 3, v = (axis + 2) % 3;
   const Wide4 most(line.direction[axis]);
   const auto quotient = [&](const Wide4& value, unsigned bits) {
-    return floor_of_quotient(value.shifted(bits), most);
+    bool is_whole;
+    return floor_of_quotient(value.shifted(bits), most, is_whole);
   };
   return {quotient(Wide4(line.direction[u]), 60) * 4 + line.axis,
           quotient(Wide4(line.direction[v]), 60), quotient(Wide4(line.moment[u]), 30),

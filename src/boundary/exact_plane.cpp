@@ -76,7 +76,13 @@ ExactPlane ExactGrid::square_plane(int axis, double at) const {
 
 uint32_t PlaneTable::add(const ExactPlane& plane) {
   const auto [at, is_new] = numbers_.try_emplace(plane, uint32_t(planes_.size()));
-  if (is_new) planes_.push_back(plane);
+  if (is_new) {
+    planes_.push_back(plane);
+    RoundedPlane rounded;
+    for (int i = 0; i < 3; ++i) rounded.n[i] = std::ldexp(double(plane.n[size_t(i)]), -kNormalBits);
+    rounded.d = std::ldexp(double(plane.d), -kNormalBits);
+    rounded_.push_back(rounded);
+  }
   return at->second;
 }
 

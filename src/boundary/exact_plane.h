@@ -25,6 +25,12 @@ struct ExactPlane {
   bool operator==(const ExactPlane&) const = default;
 };
 
+/// The same as doubles: divided by 2^52, so that n is no longer than about 1.
+struct RoundedPlane {
+  Vec3 n;        ///< exact
+  double d = 0;  ///< rounded
+};
+
 /// A side of a plane: 1 where n.y > d, -1 where n.y < d.
 using PlaneSide = int8_t;
 
@@ -57,6 +63,7 @@ class PlaneTable {
   uint32_t find(const ExactPlane& plane) const { return numbers_.at(plane); }
 
   const ExactPlane& operator[](uint32_t number) const { return planes_[number]; }
+  const RoundedPlane& rounded(uint32_t number) const { return rounded_[number]; }
   size_t size() const { return planes_.size(); }
 
  private:
@@ -64,6 +71,7 @@ class PlaneTable {
     size_t operator()(const ExactPlane& plane) const;
   };
   std::vector<ExactPlane> planes_;
+  std::vector<RoundedPlane> rounded_;
   std::unordered_map<ExactPlane, uint32_t, Hash> numbers_;
 };
 

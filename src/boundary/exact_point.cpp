@@ -1,6 +1,7 @@
 #include "boundary/exact_point.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace whittle {
@@ -34,20 +35,18 @@ std::array<Int128, 3> direction(const ExactPlane& a, const ExactPlane& b) {
   return product;
 }
 
-HomogeneousPoint ExactGeometry::homogeneous(const ExactPoint& point) const {
+HomogeneousPoint ExactGeometry::homogeneous(const std::array<uint32_t, 3>& planes) const {
   // Cramer's rule: y = (d_a (b x c) + d_b (c x a) + d_c (a x b)) / (a . (b x c)).
-  const ExactPlane &a = plane(point.planes[0]), &b = plane(point.planes[1]),
-                   &c = plane(point.planes[2]);
+  const ExactPlane &a = plane(planes[0]), &b = plane(planes[1]), &c = plane(planes[2]);
   const std::array<Int128, 3> bc = direction(b, c), ca = direction(c, a), ab = direction(a, b);
-  const Wide4 da(a.d), db(b.d), dc(c.d);
   HomogeneousPoint result;
   for (size_t i = 0; i < 3; ++i) {
-    result.w += Wide4(Int128(a.n[i])) * Wide4(bc[i]);
-    result.x[i] = da * Wide4(bc[i]) + db * Wide4(ca[i]) + dc * Wide4(ab[i]);
+    result.w += product(bc[i], a.n[i]);
+    result.x[i] = product(bc[i], a.d) + product(ca[i], b.d) + product(ab[i], c.d);
   }
   if (result.w.is_negative()) {
     result.w = -result.w;
-    for (Wide4& x : result.x) x = -x;
+    for (WideInt<3>& x : result.x) x = -x;
   }
   return result;
 }
@@ -55,14 +54,54 @@ HomogeneousPoint ExactGeometry::homogeneous(const ExactPoint& point) const {
 ExactPoint ExactGeometry::meet(uint32_t a, uint32_t b, uint32_t c) const {
   ExactPoint point;
   point.planes = {a, b, c};
-  const HomogeneousPoint fractions = homogeneous(point);
+  const HomogeneousPoint fractions = homogeneous(point.planes);
+  const Wide4 divisor(fractions.w);
   point.is_whole = true;
   for (size_t i = 0; i < 3; ++i) {
-    const Wide4 scaled = fractions.x[i].shifted(ExactPoint::kFractionBits);
-    point.floor[i] = floor_of_quotient(scaled, fractions.w);
-    point.is_whole = point.is_whole && Wide4(point.floor[i]) * fractions.w == scaled;
+    bool is_whole;
+    point.floor[i] = floor_of_quotient(Wide4(fractions.x[i]).shifted(ExactPoint::kFractionBits),
+                                       divisor, is_whole);
+    point.is_whole = point.is_whole && is_whole;
   }
   return point;
+}
+
+ApproximatePoint ExactGeometry::about(uint32_t a, uint32_t b, uint32_t c) const {
+  const RoundedPlane &p = rounded(a), &q = rounded(b), &r = rounded(c);
+  const Vec3 qr = cross(q.n, r.n), rp = cross(r.n, p.n), pq = cross(p.n, q.n);
+  const double w = dot(p.n, qr);
+  ApproximatePoint point;
+  point.planes = {a, b, c};
+  point.y = (qr * p.d + rp * q.d + pq * r.d) / w;
+  // Components of normals are exact and at most 1. So those of products are off by 2^-51, w by
+  // 2^-48, and the sums of three products by 2^-49 of what the distances add up to.
+  constexpr double kUnit = 0x1p-48;
+  const double distances = std::fabs(p.d) + std::fabs(q.d) + std::fabs(r.d);
+  const double most = max_component(abs(point.y));
+  // What w is off is told from w itself only where that is much larger.
+  const double size = std::fabs(w) - kUnit;
+  point.error = size > kUnit ? kUnit * (distances + 2 * most) / size : kInfinity;
+  return point;
+}
+
+PlaneSide ExactGeometry::exact_side(const std::array<uint32_t, 3>& point, uint32_t number) const {
+  if (std::find(point.begin(), point.end(), number) != point.end()) return 0;
+  const ExactPlane& p = plane(number);
+  const HomogeneousPoint fractions = homogeneous(point);
+  Wide4 exact = -(Wide4(p.d) * Wide4(fractions.w));
+  for (size_t i = 0; i < 3; ++i) exact += Wide4(fractions.x[i]).times(p.n[i]);
+  return PlaneSide(exact.sign());
+}
+
+PlaneSide ExactGeometry::side(const ApproximatePoint& point, uint32_t number) const {
+  const RoundedPlane& p = rounded(number);
+  const double value = dot(p.n, point.y) - p.d;
+  // The components of a normal add up to no more than 3; the rest is rounding here.
+  const double error =
+      3 * point.error + 0x1p-49 * (2 * max_component(abs(point.y)) + std::fabs(p.d));
+  if (value > error) return 1;
+  if (value < -error) return -1;
+  return exact_side(point.planes, number);
 }
 
 PlaneSide ExactGeometry::side(const ExactPoint& point, uint32_t number) const {
@@ -76,11 +115,7 @@ PlaneSide ExactGeometry::side(const ExactPoint& point, uint32_t number) const {
   if (point.is_whole) return PlaneSide(sign(value));
   if (value + low > 0) return 1;
   if (value + high < 0) return -1;
-  if (std::find(point.planes.begin(), point.planes.end(), number) != point.planes.end()) return 0;
-  const HomogeneousPoint fractions = homogeneous(point);
-  Wide4 exact = -(Wide4(p.d) * fractions.w);
-  for (size_t i = 0; i < 3; ++i) exact += Wide4(Int128(p.n[i])) * fractions.x[i];
-  return PlaneSide(exact.sign());
+  return exact_side(point.planes, number);
 }
 
 bool ExactGeometry::is_same(const ExactPoint& p, const ExactPoint& q) const {
@@ -94,7 +129,7 @@ int ExactGeometry::compare(const ExactPoint& p, const ExactPoint& q, int axis) c
   const auto i = size_t(axis);
   if (p.floor[i] != q.floor[i]) return p.floor[i] < q.floor[i] ? -1 : 1;
   if (p.is_whole && q.is_whole) return 0;
-  const HomogeneousPoint a = homogeneous(p), b = homogeneous(q);
+  const HomogeneousPoint a = homogeneous(p.planes), b = homogeneous(q.planes);
   using Wide6 = WideInt<6>;
   return (Wide6(a.x[i]) * Wide6(b.w) - Wide6(b.x[i]) * Wide6(a.w)).sign();
 }
@@ -110,7 +145,8 @@ int ExactGeometry::turn(const ExactPoint& a, const ExactPoint& b, const ExactPoi
   if (magnitude(area) > magnitude(bu) + magnitude(bv) + magnitude(cu) + magnitude(cv) + 2)
     return sign(area);
   using Wide9 = WideInt<9>;
-  const HomogeneousPoint p = homogeneous(a), q = homogeneous(b), r = homogeneous(c);
+  const HomogeneousPoint p = homogeneous(a.planes), q = homogeneous(b.planes),
+                         r = homogeneous(c.planes);
   const auto minor = [&](const HomogeneousPoint& s, const HomogeneousPoint& t) {
     return Wide9(s.x[i]) * Wide9(t.x[j]) - Wide9(s.x[j]) * Wide9(t.x[i]);
   };

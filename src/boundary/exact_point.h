@@ -19,10 +19,17 @@ struct ExactPoint {
   bool is_whole = false;  ///< `floor` is the point itself
 };
 
+/// A point as far as doubles know it: `y` is no farther off than `error` in any coordinate.
+struct ApproximatePoint {
+  std::array<uint32_t, 3> planes{};
+  Vec3 y;
+  double error = 0;
+};
+
 /// A point's coordinates as fractions: x / w.
 struct HomogeneousPoint {
-  std::array<WideInt<4>, 3> x;  ///< 187 bits
-  WideInt<4> w;                 ///< 160 bits, positive
+  std::array<WideInt<3>, 3> x;  ///< 188 bits
+  WideInt<3> w;                 ///< 161 bits, positive
 };
 
 /// What knows the planes. Numbers of planes are those of the table, which must outlive it.
@@ -31,13 +38,16 @@ class ExactGeometry {
   explicit ExactGeometry(const PlaneTable& planes) : planes_(planes) {}
 
   const ExactPlane& plane(uint32_t number) const { return planes_[number]; }
+  const RoundedPlane& rounded(uint32_t number) const { return planes_.rounded(number); }
 
   /// Precondition: the planes meet in one point, in or near the region.
   ExactPoint meet(uint32_t a, uint32_t b, uint32_t c) const;
-  HomogeneousPoint homogeneous(const ExactPoint& point) const;
+  ApproximatePoint about(uint32_t a, uint32_t b, uint32_t c) const;
+  HomogeneousPoint homogeneous(const std::array<uint32_t, 3>& planes) const;
 
   /// On which side of a plane a point is; 0: on it.
   PlaneSide side(const ExactPoint& point, uint32_t plane) const;
+  PlaneSide side(const ApproximatePoint& point, uint32_t plane) const;
   bool is_same(const ExactPoint& p, const ExactPoint& q) const;
   /// -1, 0, 1: p's coordinate is less, equal, greater. Points in the region.
   int compare(const ExactPoint& p, const ExactPoint& q, int axis) const;
@@ -47,6 +57,8 @@ class ExactGeometry {
   int turn(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, int u, int v) const;
 
  private:
+  PlaneSide exact_side(const std::array<uint32_t, 3>& point, uint32_t plane) const;
+
   const PlaneTable& planes_;
 };
 

@@ -39,6 +39,8 @@ TEST(WideInt, CountsAsSmallNumbersDo) {
     const auto a = int64_t(random()) >> (random() % 40), b = int64_t(random()) >> (random() % 40);
     const Int128 product = Int128(a) * b;
     EXPECT_EQ(Wide(a) * Wide(b), Wide(product));
+    EXPECT_EQ(Wide(a).times(b), Wide(product));
+    EXPECT_EQ(Wide(whittle::product(product / 2, a / 2)), Wide(product / 2) * Wide(a / 2));
     EXPECT_EQ(Wide(a) - Wide(b), Wide(Int128(a) - b));
     EXPECT_EQ(Wide(a).shifted(70), Wide(a) * Wide(Int128(1) << 70));
     EXPECT_DOUBLE_EQ(Wide(product).rounded(), double(product));
@@ -52,9 +54,13 @@ TEST(WideInt, QuotientIsRoundedDown) {
     const Wide divisor = Wide(Int128(random() | 1)) * Wide(Int128(random() | 1)).shifted(20);
     const auto quotient = int64_t(random()) >> (3 + random() % 60);
     const Wide rest = divisor - Wide(Int128(1 + random() % 1000));
-    EXPECT_EQ(floor_of_quotient(divisor * Wide(quotient), divisor), quotient);
-    EXPECT_EQ(floor_of_quotient(divisor * Wide(quotient) + rest, divisor), quotient);
-    EXPECT_EQ(floor_of_quotient(divisor * Wide(quotient) - Wide(1), divisor), quotient - 1);
+    bool is_whole;
+    EXPECT_EQ(floor_of_quotient(divisor.times(quotient), divisor, is_whole), quotient);
+    EXPECT_TRUE(is_whole);
+    EXPECT_EQ(floor_of_quotient(divisor.times(quotient) + rest, divisor, is_whole), quotient);
+    EXPECT_FALSE(is_whole);
+    EXPECT_EQ(floor_of_quotient(divisor.times(quotient) - Wide(1), divisor, is_whole),
+              quotient - 1);
   }
 }
 
@@ -87,11 +93,10 @@ TEST(ExactPoint, LiesOnItsPlanesAndBesideOthers) {
     for (const uint32_t plane : point.planes) {
       EXPECT_EQ(planes.geometry.side(point, plane), 0);
       // The same without the help of names.
-      ExactPoint nameless = point;
-      const HomogeneousPoint exact = planes.geometry.homogeneous(nameless);
-      Wide sum = -(Wide(planes.geometry.plane(plane).d) * exact.w);
+      const HomogeneousPoint exact = planes.geometry.homogeneous(point.planes);
+      Wide sum = -(Wide(planes.geometry.plane(plane).d) * Wide(exact.w));
       for (size_t k = 0; k < 3; ++k)
-        sum += Wide(Int128(planes.geometry.plane(plane).n[k])) * exact.x[k];
+        sum += Wide(exact.x[k]).times(planes.geometry.plane(plane).n[k]);
       EXPECT_EQ(sum.sign(), 0);
     }
     for (int k = 0; k < 3; ++k)
@@ -103,6 +108,9 @@ TEST(ExactPoint, LiesOnItsPlanesAndBesideOthers) {
       const uint32_t other =
           planes.table.add(planes.grid.plane(half_space(m, p - m * off), inside));
       EXPECT_EQ(planes.geometry.side(point, other), -inside * sign_of(off));
+      const auto& [a, b, c] = point.planes;
+      EXPECT_EQ(planes.geometry.side(planes.geometry.about(a, b, c), other),
+                -inside * sign_of(off));
     }
   }
 }

@@ -5,6 +5,31 @@
 
 namespace whittle {
 
+PointCache::Entry& PointCache::find(const std::array<uint32_t, 3>& planes) {
+  uint64_t hash = 0;
+  for (const uint32_t plane : planes)
+    hash = (hash ^ plane) * 0x9e3779b97f4a7c15, hash ^= hash >> 32;
+  const size_t mask = entries_.size() - 1;
+  size_t at = hash & mask;
+  while (entries_[at].when == now_ && entries_[at].planes != planes) at = (at + 1) & mask;
+  return entries_[at];
+}
+
+uint32_t& PointCache::number(std::array<uint32_t, 3> planes) {
+  std::sort(planes.begin(), planes.end());
+  Entry* entry = &find(planes);
+  if (entry->when == now_) return entry->number;
+  if (2 * ++count_ > entries_.size()) {
+    const std::vector<Entry> before =
+        std::exchange(entries_, std::vector<Entry>(2 * entries_.size()));
+    for (const Entry& old : before)
+      if (old.when == now_) find(old.planes) = old;
+    entry = &find(planes);
+  }
+  *entry = {now_, planes, kNone};
+  return entry->number;
+}
+
 /// A plane's part over a rectangle square to an axis to which the plane is not parallel. Runs
 /// counter-clockwise seen from the plane's positive side.
 PieceMaker::Polygon PieceMaker::rectangle(uint32_t plane, int axis, const CellSides& sides) {
@@ -15,7 +40,7 @@ PieceMaker::Polygon PieceMaker::rectangle(uint32_t plane, int axis, const CellSi
   for (size_t i = 0; i < 4; ++i) {
     const size_t at = is_turned ? 3 - i : i, before = (at + 3) % 4;
     const uint32_t point = uint32_t(points_.size());
-    points_.push_back(geometry_.meet(plane, around[before], around[at]));
+    points_.push_back(geometry_.about(plane, around[before], around[at]));
     polygon.push_back({point, is_turned ? around[before] : around[at]});
   }
   return polygon;
@@ -41,7 +66,7 @@ void PieceMaker::cut(const Polygon& polygon, uint32_t plane, uint32_t by, PlaneS
     if (here >= 0) part.push_back({corner.point, here == 0 && after < 0 ? by : corner.edge_plane});
     if (here * after >= 0) continue;
     const uint32_t point = uint32_t(points_.size());
-    points_.push_back(geometry_.meet(plane, corner.edge_plane, by));
+    points_.push_back(geometry_.about(plane, corner.edge_plane, by));
     part.push_back({point, here > 0 ? by : corner.edge_plane});
   }
 }
@@ -107,14 +132,20 @@ void PieceMaker::emit(const Polygon& polygon, Sheet sheet, uint32_t owner, Piece
   for (uint32_t i = 0; i < count; ++i) {
     const uint32_t at = is_turned ? count - 1 - i : i;
     const uint32_t edge = is_turned ? (at + count - 1) % count : at;
-    out.corners.push_back({uint32_t(out.points.size()), polygon[edge].edge_plane});
-    out.points.push_back(points_[polygon[at].point]);
+    const std::array<uint32_t, 3>& planes = points_[polygon[at].point].planes;
+    uint32_t& number = emitted_.number(planes);
+    if (number == PointCache::kNone) {
+      number = uint32_t(out.points.size());
+      out.points.push_back(geometry_.meet(planes[0], planes[1], planes[2]));
+    }
+    out.corners.push_back({number, polygon[edge].edge_plane});
   }
   out.pieces.push_back({sheet, owner, first, count});
 }
 
 void PieceMaker::within(CellLink leaf, const CellSides& cell, Pieces& out) {
   local_.clear();
+  emitted_.clear();
   below_.set(leaf, half_spaces_, local_);
   const std::vector<uint32_t> planes(local_.all().begin(), local_.all().end());
   for (const uint32_t plane : planes) {
@@ -134,6 +165,7 @@ void PieceMaker::within(CellLink leaf, const CellSides& cell, Pieces& out) {
 void PieceMaker::between(CellLink below, CellLink above, int axis, const CellSides& sides,
                          Pieces& out) {
   local_.clear();
+  emitted_.clear();
   below_.set(below, half_spaces_, local_);
   above_.set(above, half_spaces_, local_);
   points_.clear();

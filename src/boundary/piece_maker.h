@@ -17,6 +17,26 @@ struct CellSides {
   std::array<uint32_t, 3> lo{}, hi{};
 };
 
+/// The exact points of one cell, by their planes.
+class PointCache {
+ public:
+  void clear() { ++now_, count_ = 0; }
+  /// The place of a point's number, which is kNone if it is new. Until the next call.
+  uint32_t& number(std::array<uint32_t, 3> planes);
+  static constexpr uint32_t kNone = UINT32_MAX;
+
+ private:
+  struct Entry {
+    uint64_t when = 0;
+    std::array<uint32_t, 3> planes{};
+    uint32_t number = kNone;
+  };
+  Entry& find(const std::array<uint32_t, 3>& planes);
+  std::vector<Entry> entries_ = std::vector<Entry>(256);
+  uint64_t now_ = 1;
+  size_t count_ = 0;
+};
+
 /// Used by one thread at a time.
 class PieceMaker {
  public:
@@ -57,7 +77,8 @@ class PieceMaker {
   std::span<const PlacedHalfSpace> half_spaces_;
   LocalPlanes local_;
   LeafFunction below_, above_;
-  std::vector<ExactPoint> points_;
+  std::vector<ApproximatePoint> points_;
+  PointCache emitted_;
   std::vector<PlaneSide> signs_;
   std::vector<Open> open_;
 };

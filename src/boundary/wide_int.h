@@ -27,6 +27,12 @@ class WideInt {
     for (size_t i = 0; i < M; ++i) words_[i] = value.word(i);
   }
 
+  static constexpr WideInt of_words(const std::array<uint64_t, N>& words) {
+    WideInt result;
+    result.words_ = words;
+    return result;
+  }
+
   constexpr uint64_t word(size_t i) const { return words_[i]; }
   constexpr bool is_negative() const { return words_[N - 1] >> 63; }
   /// -1, 0 or 1.
@@ -74,6 +80,18 @@ class WideInt {
     return product;
   }
 
+  constexpr WideInt times(int64_t factor) const {
+    const uint64_t size = factor < 0 ? -uint64_t(factor) : uint64_t(factor);
+    WideInt product;
+    uint64_t carry = 0;
+    for (size_t i = 0; i < N; ++i) {
+      const UInt128 sum = UInt128(words_[i]) * size + carry;
+      product.words_[i] = uint64_t(sum);
+      carry = uint64_t(sum >> 64);
+    }
+    return factor < 0 ? -product : product;
+  }
+
   /// Times 2^bits.
   constexpr WideInt shifted(unsigned bits) const {
     WideInt result;
@@ -98,21 +116,34 @@ class WideInt {
   std::array<uint64_t, N> words_{};
 };
 
-/// The largest integer that is no more than a / b. Precondition: b > 0, and the quotient is less
-/// than 2^62.
+/// The product of two numbers, if it is less than 2^191.
+constexpr WideInt<3> product(Int128 a, Int128 b) {
+  const UInt128 x = a < 0 ? -UInt128(a) : UInt128(a), y = b < 0 ? -UInt128(b) : UInt128(b);
+  const auto x_low = uint64_t(x), x_high = uint64_t(x >> 64), y_low = uint64_t(y),
+             y_high = uint64_t(y >> 64);
+  const UInt128 low = UInt128(x_low) * y_low;
+  const UInt128 middle = UInt128(x_low) * y_high + uint64_t(low >> 64);
+  const UInt128 other = UInt128(x_high) * y_low + uint64_t(middle);
+  const uint64_t high = x_high * y_high + uint64_t(middle >> 64) + uint64_t(other >> 64);
+  const auto size = WideInt<3>::of_words({uint64_t(low), uint64_t(other), high});
+  return (a < 0) != (b < 0) ? -size : size;
+}
+
+/// The largest integer that is no more than a / b, and whether it is the quotient itself.
+/// Precondition: b > 0, and the quotient is less than 2^62.
 template <size_t N>
-int64_t floor_of_quotient(WideInt<N> a, const WideInt<N>& b) {
+int64_t floor_of_quotient(WideInt<N> a, const WideInt<N>& b, bool& is_whole) {
   const double divisor = b.rounded();
   int64_t quotient = 0;
-  // Each round leaves of the rest what a double does not know.
-  for (int round = 0; round < 3; ++round) {
+  // The first round leaves of the rest what a double does not know, the second about nothing.
+  for (int round = 0; round < 2; ++round) {
     const auto part = int64_t(std::floor(a.rounded() / divisor));
-    if (part == 0) break;
     quotient += part;
-    a -= WideInt<N>(part) * b;
+    a -= b.times(part);
   }
-  while (a.sign() < 0) --quotient, a += b;
-  while ((a - b).sign() >= 0) ++quotient, a -= b;
+  for (; a.is_negative(); a += b) --quotient;
+  for (WideInt<N> less = a - b; !less.is_negative(); less -= b) ++quotient, a = less;
+  is_whole = a.sign() == 0;
   return quotient;
 }
 
