@@ -79,7 +79,7 @@ void add_options(CommandLine& line, RenderArguments& a) {
   line.add_required("FILE", a.file);
   OptionGroup output(app, "Output"), look(app, "Look"), machine(app, "Machine");
   output.add_each("-o", "OUT",
-                  "a .png, .exr, .stl, .off or .obj, and -o again for more; '-': standard output",
+                  "a .png, .exr, .stl, .off or .obj; -o again for more; '-': standard output",
                   [&](const std::string& path) { a.outputs.push_back(path); });
   output.add_text(
       "--export-format", "NAME",
@@ -137,13 +137,17 @@ Result<std::vector<Output>> choose_outputs(const RenderArguments& a) {
     } else if (const std::optional<SolidFormat> solid = solid_format_of(path)) {
       output.solid = solid;
     } else if (path == "-") {
-      return Error{ErrorKind::kUsage, fmt::format("-o - (standard output) needs --export-format {}",
-                                                  names_of(format_choices(), " or "))};
+      return Error{ErrorKind::kUsage,
+                   fmt::format("-o - (standard output) needs --export-format {}, {}",
+                               names_of(format_choices()), names_of(solid_format_choices()))};
     } else {
       const Result<FileFormat> format = format_of(path);
       if (!format) {
         const std::optional<std::string> refusal = refusal_of_format(path);
-        return refusal ? Error{ErrorKind::kUsage, *refusal} : format.error();
+        return Error{ErrorKind::kUsage,
+                     refusal.value_or(fmt::format("'{}' does not end in .png, .exr, .stl, .off or "
+                                                  ".obj, so its format is not known",
+                                                  path))};
       }
       output.format = *format;
     }

@@ -35,14 +35,14 @@ Status write_solid_files(const Model& model, const std::vector<SolidOutput>& out
     say_lines(fmt::format(
         "cells         {:>12}   leaves; {} contacts{}\n"
         "pieces        {:>12}   {} edges of faces, {} of more than two\n"
-        "triangles     {:>12}   {} corners\n"
+        "triangles     {:>12}   {} corners; {} edges that were but rounding are gone\n"
         "time (ms)     {:>12.1f}   cells {:.1f}, cut {:.1f}, join {:.1f}, fill {:.1f}, write "
         "{:.1f}\n"
         "memory        {:>12}\n",
         stats.leaves, stats.contacts, stats.asked_all_contacts ? ", all of them" : "", stats.pieces,
         stats.outline_edges, stats.shared_edges, mesh->triangles.size(), mesh->corners.size(),
-        watch.milliseconds(), stats.cells_ms, stats.cut_ms, stats.join_ms, stats.fill_ms,
-        watch.milliseconds() - evaluated, describe_bytes(peak_memory_bytes())));
+        stats.collapsed, watch.milliseconds(), stats.cells_ms, stats.cut_ms, stats.join_ms,
+        stats.fill_ms, watch.milliseconds() - evaluated, describe_bytes(peak_memory_bytes())));
   }
   return Done{};
 }

@@ -5,6 +5,7 @@
 
 #include "base/timing.h"
 #include "boundary/cell_walk.h"
+#include "boundary/collapse.h"
 #include "boundary/fill_faces.h"
 #include "boundary/finish.h"
 #include "subdivide/subdivide.h"
@@ -155,6 +156,9 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
     s.asked_all_contacts = asks_all;
     SolidMesh mesh = finish(fill(*outlines, geometry, workers), *outlines, owners_of(pieces),
                             geometry, grid.per_unit(), scene.origin);
+    // Planes that were written to meet in one point do so but for rounding.
+    constexpr double kRounding = 1e-12;
+    s.collapsed = collapse_short_edges(mesh, kRounding * max_component(scene.region.size()));
     lap(s.fill_ms);
     return mesh;
   }

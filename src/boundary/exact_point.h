@@ -37,6 +37,7 @@ class ExactGeometry {
  public:
   explicit ExactGeometry(const PlaneTable& planes) : planes_(planes) {}
 
+  size_t plane_count() const { return planes_.size(); }
   const ExactPlane& plane(uint32_t number) const { return planes_[number]; }
   const RoundedPlane& rounded(uint32_t number) const { return planes_.rounded(number); }
 

@@ -17,16 +17,18 @@ bool is_leaf(CellLink link) {
 
 }  // namespace
 
-uint32_t LocalPlanes::add(uint32_t plane) {
-  if (const std::optional<uint32_t> known = find(plane)) return *known;
-  planes_.push_back(plane);
-  return uint32_t(planes_.size()) - 1;
+void LocalPlanes::clear() {
+  for (const uint32_t plane : planes_) numbers_[plane] = kNone;
+  planes_.clear();
 }
 
-std::optional<uint32_t> LocalPlanes::find(uint32_t plane) const {
-  const auto at = std::find(planes_.begin(), planes_.end(), plane);
-  if (at == planes_.end()) return std::nullopt;
-  return uint32_t(at - planes_.begin());
+uint32_t LocalPlanes::add(uint32_t plane) {
+  uint32_t& number = numbers_[plane];
+  if (number == kNone) {
+    number = uint32_t(planes_.size());
+    planes_.push_back(plane);
+  }
+  return number;
 }
 
 void LeafFunction::set(CellLink link, std::span<const PlacedHalfSpace> half_spaces,
@@ -47,11 +49,11 @@ std::optional<bool> LeafFunction::is_inside(const Literal& literal,
   return side == literal.inside;
 }
 
-LeafFunction::Answer LeafFunction::at(std::span<const PlaneSide> sides) const {
+LeafFunction::Answer LeafFunction::at(std::span<const PlaneSide> sides, uint32_t& from) const {
   if (link_.kind() == CellKind::kEmpty) return {false};
   if (link_.kind() == CellKind::kFull) return {true};
   if (literals_.size() <= kTableLiterals) return by_table(sides);
-  return link_.kind() == CellKind::kProgram ? by_program(sides) : by_group(sides);
+  return link_.kind() == CellKind::kProgram ? by_program(sides, from) : by_group(sides);
 }
 
 LeafFunction::Answer LeafFunction::by_table(std::span<const PlaneSide> sides) const {
@@ -90,9 +92,10 @@ LeafFunction::Answer LeafFunction::by_group(std::span<const PlaneSide> sides) co
   return {neutral};
 }
 
-LeafFunction::Answer LeafFunction::by_program(std::span<const PlaneSide> sides) const {
+LeafFunction::Answer LeafFunction::by_program(std::span<const PlaneSide> sides,
+                                              uint32_t& from) const {
   const std::span<const Step> steps = link_.leaf().steps();
-  uint32_t at = 0;
+  uint32_t& at = from;
   while (at < kAnswerFalse) {
     const Step& step = steps[at];
     const Literal& literal = literals_[step.literal >> 1];

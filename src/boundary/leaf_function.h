@@ -20,13 +20,17 @@ struct PlacedHalfSpace {
 /// Planes that a few leaves share, by short numbers.
 class LocalPlanes {
  public:
-  void clear() { planes_.clear(); }
+  /// There are so many planes in all.
+  explicit LocalPlanes(size_t planes) : numbers_(planes, kNone) {}
+
+  void clear();
   uint32_t add(uint32_t plane);
-  std::optional<uint32_t> find(uint32_t plane) const;
   std::span<const uint32_t> all() const { return planes_; }
 
  private:
+  static constexpr uint32_t kNone = UINT32_MAX;
   std::vector<uint32_t> planes_;
+  std::vector<uint32_t> numbers_;  ///< by plane
 };
 
 class LeafFunction {
@@ -38,8 +42,9 @@ class LeafFunction {
     std::optional<bool> value;
     uint32_t asks = 0;  ///< no value yet: the side of this plane matters
   };
-  /// `sides`: by local number of plane, 0 if it is not known.
-  Answer at(std::span<const PlaneSide> sides) const;
+  /// `sides`: by local number of plane, 0 if it is not known. `from`: 0 at first, then what the
+  /// last call left there if nothing has changed but that more sides are known.
+  Answer at(std::span<const PlaneSide> sides, uint32_t& from) const;
 
   /// The id of the first body that has a face in a plane; kSharedOwner if none has.
   uint32_t owner(const Scene& scene, uint32_t local_plane) const;
@@ -53,7 +58,7 @@ class LeafFunction {
   std::optional<bool> is_inside(const Literal& literal, std::span<const PlaneSide> sides) const;
   Answer by_table(std::span<const PlaneSide> sides) const;
   Answer by_group(std::span<const PlaneSide> sides) const;
-  Answer by_program(std::span<const PlaneSide> sides) const;
+  Answer by_program(std::span<const PlaneSide> sides, uint32_t& from) const;
 
   CellLink link_;
   std::vector<Literal> literals_;

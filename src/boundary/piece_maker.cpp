@@ -96,33 +96,31 @@ void PieceMaker::fill(Polygon polygon, uint32_t plane, const LeafFunction& below
   while (!open_.empty()) {
     Open part = std::move(open_.back());
     open_.pop_back();
-    // The plane itself has each of the two on one side.
-    part.sides[own] = -1;
-    const LeafFunction::Answer low = below.at(part.sides);
-    part.sides[own] = 1;
-    const LeafFunction::Answer high = above.at(part.sides);
-    if (low.value && high.value) {
-      if (*low.value != *high.value) emit(part.polygon, sheet_of(plane, *high.value), owner, out);
-      continue;
+    while (true) {
+      // The plane itself has each of the two on one side.
+      part.sides[own] = -1;
+      const LeafFunction::Answer low = below.at(part.sides, part.below_from);
+      part.sides[own] = 1;
+      const LeafFunction::Answer high = above.at(part.sides, part.above_from);
+      if (low.value && high.value) {
+        if (*low.value != *high.value) emit(part.polygon, sheet_of(plane, *high.value), owner, out);
+        break;
+      }
+      const uint32_t asks = low.value ? high.asks : low.asks;
+      const uint32_t by = local_.all()[asks];
+      bool has_below, has_above;
+      look(part.polygon, by, has_below, has_above);
+      if (has_below && has_above) {
+        Open other{{}, part.sides, part.below_from, part.above_from};
+        cut(part.polygon, plane, by, 1, other.polygon);
+        other.sides[asks] = 1;
+        Polygon rest;
+        cut(part.polygon, plane, by, -1, rest);
+        part.polygon = std::move(rest);
+        open_.push_back(std::move(other));
+      }
+      part.sides[asks] = has_below ? -1 : 1;
     }
-    const uint32_t asks = low.value ? high.asks : low.asks;
-    const uint32_t by = local_.all()[asks];
-    bool has_below, has_above;
-    look(part.polygon, by, has_below, has_above);
-    if (!has_below || !has_above) {
-      part.sides[asks] = has_above ? 1 : -1;
-      open_.push_back(std::move(part));
-      continue;
-    }
-    Open other{{}, part.sides};
-    Polygon rest;
-    cut(part.polygon, plane, by, 1, other.polygon);
-    cut(part.polygon, plane, by, -1, rest);
-    other.sides[asks] = 1;
-    part.sides[asks] = -1;
-    part.polygon = std::move(rest);
-    open_.push_back(std::move(part));
-    open_.push_back(std::move(other));
   }
 }
 

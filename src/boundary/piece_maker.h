@@ -42,7 +42,10 @@ class PieceMaker {
  public:
   PieceMaker(const Scene& scene, const ExactGeometry& geometry,
              std::span<const PlacedHalfSpace> half_spaces)
-      : scene_(scene), geometry_(geometry), half_spaces_(half_spaces) {}
+      : scene_(scene),
+        geometry_(geometry),
+        half_spaces_(half_spaces),
+        local_(geometry.plane_count()) {}
 
   /// The pieces within a leaf's cell. What lies in its sides is left to between().
   void within(CellLink leaf, const CellSides& cell, Pieces& out);
@@ -59,7 +62,8 @@ class PieceMaker {
   using Polygon = std::vector<Corner>;
   struct Open {
     Polygon polygon;
-    std::vector<PlaneSide> sides;  ///< by local plane
+    std::vector<PlaneSide> sides;             ///< by local plane
+    uint32_t below_from = 0, above_from = 0;  ///< how far the two functions have come
   };
 
   Polygon rectangle(uint32_t plane, int axis, const CellSides& sides);

@@ -22,7 +22,7 @@ struct SolidMesh {
     Vec3 outward;        ///< unit normal
     uint32_t owner = 0;  ///< id of the first body in the file that has a part of it
   };
-  std::vector<Vec3> corners;  ///< world coordinates, each the double next to where it is
+  std::vector<Vec3> corners;  ///< world coordinates
   std::vector<Triangle> triangles;
   std::vector<Face> faces;
 };
