@@ -42,6 +42,7 @@ constexpr CommandHelp kHelp = {
     "  whittle part.csg -o part.png\n"
     "  whittle part.csg -o part.png -o facts.exr --imgsize 1920,1080\n"
     "  whittle part.csg -o top.png --camera 0,0,0,0,0,0,200 --projection ortho\n"
+    "  whittle part.csg -o part.stl\n"
     "  openscad -o - --export-format csg part.scad | whittle - -o part.png\n\n"
     "  whittle part.scad -o lid.png -D 'part=\"lid\"'\n\n"
     "Exit codes: 0 done, 1 bad input, or something in it is not shown (--lenient: 0),\n"
@@ -79,7 +80,7 @@ void add_options(CommandLine& line, RenderArguments& a) {
   line.add_required("FILE", a.file);
   OptionGroup output(app, "Output"), look(app, "Look"), machine(app, "Machine");
   output.add_each("-o", "OUT",
-                  "a .png, .exr, .stl, .off or .obj; -o again for more; '-': standard output",
+                  "a .png, .exr, .stl, .off or .obj, each -o one; '-': standard output",
                   [&](const std::string& path) { a.outputs.push_back(path); });
   output.add_text(
       "--export-format", "NAME",

@@ -48,16 +48,14 @@ class PieceCollector {
 
  private:
   static void append(const Pieces& from, Pieces& to) {
-    const auto points = uint32_t(to.points.size()), corners = uint32_t(to.corners.size());
+    const auto points = uint32_t(to.points.size());
     to.points.insert(to.points.end(), from.points.begin(), from.points.end());
-    for (Pieces::Corner corner : from.corners) {
-      corner.point += points;
-      to.corners.push_back(corner);
+    for (Pieces::Edge edge : from.edges) {
+      edge.from += points, edge.to += points;
+      to.edges.push_back(edge);
     }
-    for (Pieces::Piece piece : from.pieces) {
-      piece.first += corners;
-      to.pieces.push_back(piece);
-    }
+    to.owners.insert(to.owners.end(), from.owners.begin(), from.owners.end());
+    to.count += from.count;
   }
 
   const Workers& workers_;
@@ -68,12 +66,9 @@ class PieceCollector {
 };
 
 /// The lowest id of those that own a part of a sheet, by sheet.
-std::vector<std::pair<Sheet, uint32_t>> owners_of(const Pieces& pieces) {
-  std::vector<std::pair<Sheet, uint32_t>> owners;
-  owners.reserve(pieces.pieces.size());
-  for (const Pieces::Piece& piece : pieces.pieces) owners.push_back({piece.sheet, piece.owner});
+std::vector<Pieces::Owner> first_owners(std::vector<Pieces::Owner> owners) {
   std::sort(owners.begin(), owners.end());
-  const auto is_same = [](const auto& a, const auto& b) { return a.first == b.first; };
+  const auto is_same = [](const auto& a, const auto& b) { return a.sheet == b.sheet; };
   owners.erase(std::unique(owners.begin(), owners.end(), is_same), owners.end());
   return owners;
 }
@@ -142,7 +137,7 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
         pieces);
     lap(s.cut_ms);
     LineTable lines(geometry);
-    Result<FaceOutlines> outlines = join(pieces, geometry, lines);
+    Result<FaceOutlines> outlines = join(pieces, geometry, lines, workers);
     lap(s.join_ms);
     if (!outlines && asks_all) return outlines.error();
     if (!outlines) {
@@ -150,12 +145,12 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
       continue;
     }
     s.contacts = contacts.size();
-    s.pieces = pieces.pieces.size();
+    s.pieces = pieces.count;
     s.outline_edges = outlines->edges.size() / 2;
     s.shared_edges = outlines->shared_edges;
     s.asked_all_contacts = asks_all;
-    SolidMesh mesh = finish(fill(*outlines, geometry, workers), *outlines, owners_of(pieces),
-                            geometry, grid.per_unit(), scene.origin);
+    SolidMesh mesh = finish(fill(*outlines, geometry, workers), *outlines,
+                            first_owners(pieces.owners), geometry, grid.per_unit(), scene.origin);
     // Planes that were written to meet in one point do so but for rounding.
     constexpr double kRounding = 1e-12;
     s.collapsed = collapse_short_edges(mesh, kRounding * max_component(scene.region.size()));

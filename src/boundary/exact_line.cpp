@@ -1,6 +1,7 @@
 #include "boundary/exact_line.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace whittle {
 namespace {
@@ -53,20 +54,36 @@ bool LineTable::is_same(const ExactLine& a, const ExactLine& b) {
   return true;
 }
 
+LineTable::Named& LineTable::place_of(uint64_t planes) {
+  uint64_t hash = planes * 0x9e3779b97f4a7c15;
+  hash ^= hash >> 32;
+  const size_t mask = named_.size() - 1;
+  size_t at = hash & mask;
+  while (named_[at].planes != UINT64_MAX && named_[at].planes != planes) at = (at + 1) & mask;
+  return named_[at];
+}
+
 uint32_t LineTable::number(uint32_t plane_a, uint32_t plane_b) {
   const auto [low, high] = std::minmax(plane_a, plane_b);
-  const auto [at, is_new] = by_planes_.try_emplace(uint64_t(low) << 32 | high, 0);
-  if (!is_new) return at->second;
+  const uint64_t planes = uint64_t(low) << 32 | high;
+  if (const Named& known = place_of(planes); known.planes == planes) return known.line;
   const ExactLine line = make(low, high);
   const Key its_key = key(line);
   const auto [first, last] = by_key_.equal_range(its_key);
-  const auto known = std::find_if(
+  const auto equal = std::find_if(
       first, last, [&](const auto& entry) { return is_same(line, lines_[entry.second]); });
-  if (known != last) return at->second = known->second;
-  at->second = uint32_t(lines_.size());
-  lines_.push_back(line);
-  by_key_.emplace(its_key, at->second);
-  return at->second;
+  const uint32_t number = equal != last ? equal->second : uint32_t(lines_.size());
+  if (equal == last) {
+    lines_.push_back(line);
+    by_key_.emplace(its_key, number);
+  }
+  if (2 * ++named_count_ > named_.size()) {
+    const std::vector<Named> before = std::exchange(named_, std::vector<Named>(2 * named_.size()));
+    for (const Named& named : before)
+      if (named.planes != UINT64_MAX) place_of(named.planes) = named;
+  }
+  place_of(planes) = {planes, number};
+  return number;
 }
 
 size_t LineTable::Hash::operator()(const Key& key) const {

@@ -38,7 +38,14 @@ class LineTable {
 
   const ExactGeometry& geometry_;
   std::vector<ExactLine> lines_;
-  std::unordered_map<uint64_t, uint32_t> by_planes_;
+  /// By pairs of planes, in a table with free places.
+  struct Named {
+    uint64_t planes = UINT64_MAX;
+    uint32_t line = 0;
+  };
+  Named& place_of(uint64_t planes);
+  std::vector<Named> named_ = std::vector<Named>(1024);
+  size_t named_count_ = 0;
   std::unordered_multimap<Key, uint32_t, Hash> by_key_;
 };
 

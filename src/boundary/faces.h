@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "base/workers.h"
 #include "boundary/exact_line.h"
 #include "boundary/pieces.h"
 
@@ -25,7 +26,7 @@ struct FaceOutlines {
   std::vector<ExactPoint> points;  ///< no two are equal
   /// By sheet; those of one sheet stand in a row.
   std::vector<HalfEdge> edges;
-  /// Where the solid is not told apart by its own: edges with more than two faces.
+  /// Edges in which more than two faces meet.
   size_t shared_edges = 0;
 };
 
@@ -34,6 +35,7 @@ struct FaceOutlines {
 /// material are twins, so that solids which only touch are apart (docs/decisions/0040-boundary.md).
 ///
 /// An error if the pieces do not bound a solid.
-Result<FaceOutlines> join(const Pieces& pieces, const ExactGeometry& geometry, LineTable& lines);
+Result<FaceOutlines> join(const Pieces& pieces, const ExactGeometry& geometry, LineTable& lines,
+                          const Workers& workers);
 
 }  // namespace whittle

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "boundary/fill_faces.h"
@@ -12,7 +11,7 @@ namespace whittle {
 
 /// `owners`: of every sheet, by sheet. Coordinates are divided by `per_unit` and moved by `origin`.
 SolidMesh finish(const FilledFaces& filled, const FaceOutlines& outlines,
-                 const std::vector<std::pair<Sheet, uint32_t>>& owners,
-                 const ExactGeometry& geometry, double per_unit, Vec3 origin);
+                 const std::vector<Pieces::Owner>& owners, const ExactGeometry& geometry,
+                 double per_unit, Vec3 origin);
 
 }  // namespace whittle

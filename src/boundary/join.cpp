@@ -21,18 +21,26 @@ std::vector<Span> spans_of(const Pieces& pieces, const ExactGeometry& geometry,
                            std::span<const uint32_t> numbers, std::span<const ExactPoint> points,
                            LineTable& lines) {
   std::vector<Span> spans;
-  spans.reserve(pieces.corners.size());
-  for (const Pieces::Piece& piece : pieces.pieces) {
-    for (uint32_t i = 0; i < piece.count; ++i) {
-      const Pieces::Corner& corner = pieces.corners[piece.first + i];
-      const Pieces::Corner& next = pieces.corners[piece.first + (i + 1) % piece.count];
-      const uint32_t from = numbers[corner.point], to = numbers[next.point];
-      const uint32_t line = lines.number(piece.sheet >> 1, corner.edge_plane);
-      const bool is_up = geometry.compare(points[from], points[to], lines[line].axis) < 0;
-      spans.push_back({line, piece.sheet, is_up ? from : to, is_up ? to : from, is_up ? 1 : -1});
-    }
+  spans.reserve(pieces.edges.size());
+  for (const Pieces::Edge& edge : pieces.edges) {
+    const uint32_t from = numbers[edge.from], to = numbers[edge.to];
+    const uint32_t line = lines.number(edge.sheet >> 1, edge.plane);
+    const bool is_up = geometry.compare(points[from], points[to], lines[line].axis) < 0;
+    spans.push_back({line, edge.sheet, is_up ? from : to, is_up ? to : from, is_up ? 1 : -1});
   }
   return spans;
+}
+
+/// In the order of their lines; `firsts`: where each line's begin, and the end.
+std::vector<Span> by_line(const std::vector<Span>& spans, size_t lines,
+                          std::vector<size_t>& firsts) {
+  firsts.assign(lines + 1, 0);
+  for (const Span& span : spans) ++firsts[span.line + 1];
+  for (size_t i = 1; i < firsts.size(); ++i) firsts[i] += firsts[i - 1];
+  std::vector<size_t> next(firsts.begin(), firsts.end() - 1);
+  std::vector<Span> sorted(spans.size());
+  for (const Span& span : spans) sorted[next[span.line]++] = span;
+  return sorted;
 }
 
 /// The work on one line.
@@ -42,9 +50,11 @@ class LineJoiner {
              std::span<const ExactPoint> points)
       : geometry_(geometry), lines_(lines), points_(points) {}
 
-  /// Adds what is left of the edges on a line, which stand by sheet. False if it is no boundary.
-  bool join(std::span<const Span> on_line, std::vector<HalfEdge>& out, size_t& shared) {
+  /// Adds what is left of the edges on a line, and sorts them. False if it is no boundary.
+  bool join(std::span<Span> on_line, std::vector<HalfEdge>& out, size_t& shared) {
     line_ = on_line[0].line;
+    std::sort(on_line.begin(), on_line.end(),
+              [](const Span& a, const Span& b) { return a.sheet < b.sheet; });
     rank(on_line);
     cancel(on_line);
     return cut(out, shared);
@@ -212,21 +222,41 @@ void drop_unused(FaceOutlines& outlines) {
 
 }  // namespace
 
-Result<FaceOutlines> join(const Pieces& pieces, const ExactGeometry& geometry, LineTable& lines) {
+Result<FaceOutlines> join(const Pieces& pieces, const ExactGeometry& geometry, LineTable& lines,
+                          const Workers& workers) {
   FaceOutlines outlines;
   std::vector<uint32_t> numbers;
   outlines.points = unify(pieces.points, geometry, numbers);
+  std::vector<size_t> firsts;
   std::vector<Span> spans = spans_of(pieces, geometry, numbers, outlines.points, lines);
-  std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
-    return a.line != b.line ? a.line < b.line : a.sheet < b.sheet;
+  spans = by_line(spans, lines.size(), firsts);
+
+  struct Part {
+    std::vector<HalfEdge> edges;
+    size_t shared = 0;
+    bool is_closed = true;
+  };
+  constexpr size_t kLines = 1024;
+  std::vector<Part> parts((lines.size() + kLines - 1) / kLines);
+  workers.for_parts(parts.size(), 1, [&](size_t begin, size_t end, size_t) {
+    LineJoiner joiner(geometry, lines, outlines.points);
+    for (size_t i = begin; i < end; ++i) {
+      Part& part = parts[i];
+      for (size_t line = i * kLines; line < std::min(lines.size(), (i + 1) * kLines); ++line) {
+        const size_t first = firsts[line], count = firsts[line + 1] - first;
+        part.is_closed = part.is_closed && joiner.join(std::span(spans).subspan(first, count),
+                                                       part.edges, part.shared);
+      }
+    }
   });
-  LineJoiner joiner(geometry, lines, outlines.points);
-  for (size_t i = 0; i < spans.size();) {
-    size_t end = i + 1;
-    while (end < spans.size() && spans[end].line == spans[i].line) ++end;
-    if (!joiner.join(std::span(spans).subspan(i, end - i), outlines.edges, outlines.shared_edges))
-      return Error{ErrorKind::kInput, "the boundary is not closed"};
-    i = end;
+  for (const Part& part : parts) {
+    if (!part.is_closed) return Error{ErrorKind::kInput, "the boundary is not closed"};
+    const auto before = uint32_t(outlines.edges.size());
+    for (HalfEdge edge : part.edges) {
+      edge.twin += before;
+      outlines.edges.push_back(edge);
+    }
+    outlines.shared_edges += part.shared;
   }
   sort_by_sheet(outlines.edges);
   drop_unused(outlines);

@@ -1,6 +1,7 @@
 #include "boundary/piece_maker.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace whittle {
@@ -91,6 +92,7 @@ void PieceMaker::fill(Polygon polygon, uint32_t plane, const LeafFunction& below
   if (const uint32_t other = above.owner(scene_, own);
       owner == kSharedOwner || (other != kSharedOwner && other < owner))
     owner = other;
+  const size_t first_edge = out.edges.size(), first_piece = out.count;
   open_.clear();
   open_.push_back({std::move(polygon), std::vector<PlaneSide>(local_.all().size(), 0)});
   while (!open_.empty()) {
@@ -103,7 +105,7 @@ void PieceMaker::fill(Polygon polygon, uint32_t plane, const LeafFunction& below
       part.sides[own] = 1;
       const LeafFunction::Answer high = above.at(part.sides, part.above_from);
       if (low.value && high.value) {
-        if (*low.value != *high.value) emit(part.polygon, sheet_of(plane, *high.value), owner, out);
+        if (*low.value != *high.value) emit(part.polygon, sheet_of(plane, *high.value), out);
         break;
       }
       const uint32_t asks = low.value ? high.asks : low.asks;
@@ -122,23 +124,51 @@ void PieceMaker::fill(Polygon polygon, uint32_t plane, const LeafFunction& below
       part.sides[asks] = has_below ? -1 : 1;
     }
   }
+  if (out.count > first_piece + 1) cancel(first_edge, out);
+  for (const Sheet sheet : {sheet_of(plane, false), sheet_of(plane, true)}) {
+    const auto is_on = [&](const Pieces::Edge& edge) { return edge.sheet == sheet; };
+    if (std::any_of(out.edges.begin() + std::ptrdiff_t(first_edge), out.edges.end(), is_on))
+      out.owners.push_back({sheet, owner});
+  }
 }
 
-void PieceMaker::emit(const Polygon& polygon, Sheet sheet, uint32_t owner, Pieces& out) {
-  const uint32_t first = uint32_t(out.corners.size()), count = uint32_t(polygon.size());
+void PieceMaker::emit(const Polygon& polygon, Sheet sheet, Pieces& out) {
   const bool is_turned = sheet & 1;
-  for (uint32_t i = 0; i < count; ++i) {
-    const uint32_t at = is_turned ? count - 1 - i : i;
-    const uint32_t edge = is_turned ? (at + count - 1) % count : at;
-    const std::array<uint32_t, 3>& planes = points_[polygon[at].point].planes;
+  numbers_.clear();
+  for (const Corner& corner : polygon) {
+    const std::array<uint32_t, 3>& planes = points_[corner.point].planes;
     uint32_t& number = emitted_.number(planes);
     if (number == PointCache::kNone) {
       number = uint32_t(out.points.size());
       out.points.push_back(geometry_.meet(planes[0], planes[1], planes[2]));
     }
-    out.corners.push_back({number, polygon[edge].edge_plane});
+    numbers_.push_back(number);
   }
-  out.pieces.push_back({sheet, owner, first, count});
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const uint32_t from = numbers_[i], to = numbers_[(i + 1) % polygon.size()];
+    out.edges.push_back(
+        {sheet, polygon[i].edge_plane, is_turned ? to : from, is_turned ? from : to});
+  }
+  ++out.count;
+}
+
+/// Leaves out the edges from `first` on of which there are two that run opposite ways.
+void PieceMaker::cancel(size_t first, Pieces& out) {
+  const auto key = [](const Pieces::Edge& edge) {
+    const auto [low, high] = std::minmax(edge.from, edge.to);
+    return std::tuple(low, high, edge.sheet);
+  };
+  const auto begin = out.edges.begin() + std::ptrdiff_t(first);
+  std::sort(begin, out.edges.end(),
+            [&](const Pieces::Edge& a, const Pieces::Edge& b) { return key(a) < key(b); });
+  auto kept = begin;
+  for (auto edge = begin; edge != out.edges.end(); ++edge) {
+    if (kept != begin && key(*(kept - 1)) == key(*edge) && (kept - 1)->from == edge->to)
+      --kept;
+    else
+      *kept++ = *edge;
+  }
+  out.edges.erase(kept, out.edges.end());
 }
 
 void PieceMaker::within(CellLink leaf, const CellSides& cell, Pieces& out) {

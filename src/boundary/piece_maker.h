@@ -74,7 +74,8 @@ class PieceMaker {
   void look(const Polygon& polygon, uint32_t by, bool& has_below, bool& has_above);
   void fill(Polygon polygon, uint32_t plane, const LeafFunction& below, const LeafFunction& above,
             Pieces& out);
-  void emit(const Polygon& polygon, Sheet sheet, uint32_t owner, Pieces& out);
+  void emit(const Polygon& polygon, Sheet sheet, Pieces& out);
+  static void cancel(size_t first, Pieces& out);
 
   const Scene& scene_;
   const ExactGeometry& geometry_;
@@ -84,6 +85,7 @@ class PieceMaker {
   std::vector<ApproximatePoint> points_;
   PointCache emitted_;
   std::vector<PlaneSide> signs_;
+  std::vector<uint32_t> numbers_;
   std::vector<Open> open_;
 };
 

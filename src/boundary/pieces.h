@@ -1,6 +1,8 @@
 // The boundary of a solid in pieces, as cells cut it.
 #pragma once
 
+#include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -15,21 +17,25 @@ constexpr Sheet sheet_of(uint32_t plane, bool from_below) {
   return plane * 2 + uint32_t(from_below);
 }
 
-/// Convex polygons that together are the boundary. Each runs counter-clockwise seen from its
-/// sheet's side, which is outside.
+/// Convex polygons that together are the boundary, by their edges. Edges that two polygons of one
+/// plane and cell share may be left out.
 struct Pieces {
-  struct Corner {
-    uint32_t point;       ///< into points
-    uint32_t edge_plane;  ///< the edge to the next corner lies in it
-  };
-  struct Piece {
+  /// Runs counter-clockwise around its polygon, seen from the sheet's side, which is outside.
+  struct Edge {
     Sheet sheet;
-    uint32_t owner;         ///< id of the body
-    uint32_t first, count;  ///< into corners
+    uint32_t plane;     ///< the other plane that it lies in
+    uint32_t from, to;  ///< into points
+  };
+  struct Owner {
+    Sheet sheet;
+    uint32_t id;  ///< of a body that has a part of the sheet
+
+    auto operator<=>(const Owner&) const = default;
   };
   std::vector<ExactPoint> points;
-  std::vector<Corner> corners;
-  std::vector<Piece> pieces;
+  std::vector<Edge> edges;
+  std::vector<Owner> owners;
+  size_t count = 0;  ///< of polygons
 };
 
 }  // namespace whittle
