@@ -22,9 +22,6 @@ if(WHITTLE_SANITIZE)
   add_link_options(-fsanitize=${WHITTLE_SANITIZE})
   # Compilers have no common name for these.
   add_compile_definitions(WHITTLE_SANITIZED)
-  if(WHITTLE_SANITIZE MATCHES "thread")
-    add_compile_definitions(WHITTLE_SANITIZED_THREADS)
-  endif()
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     add_compile_options(-Wno-maybe-uninitialized)  # false alarms in what GCC itself inserts
   endif()

@@ -1,6 +1,5 @@
 # Every outside library, its Debian package, and why it is here.
 find_package(Threads REQUIRED)
-find_package(TBB REQUIRED)             # libtbb-dev: threads over tiles and cells
 # libhwy-dev: vector lanes. Headers alone: src/base/instruction_set.h says why. Only what checks them
 # is in its library.
 find_package(hwy REQUIRED)
@@ -14,7 +13,7 @@ find_package(fmt REQUIRED)             # libfmt-dev: text
 find_package(nlohmann_json REQUIRED)   # nlohmann-json3-dev: machine-readable output
 find_package(PNG REQUIRED)             # libpng-dev: pictures
 find_package(ZLIB REQUIRED)            # zlib1g-dev: files in archives; libpng needs it too
-find_package(OpenEXR REQUIRED)         # libopenexr-dev: facts as pictures
+find_package(OpenEXR REQUIRED)         # libopenexr-dev: facts as pictures; opened when the first one is met
 # libqhull-dev: convex hulls. Its own CMake package wants Qhull's programs too. Linked whole, so that it
 # costs nothing when the program starts.
 find_path(QHULL_INCLUDE libqhull_r/libqhull_r.h REQUIRED)

@@ -6,7 +6,6 @@ build_packages=(
   g++                 # a C++20 compiler
   cmake               # configures
   ninja-build         # builds
-  libtbb-dev          # threads over tiles and cells
   libhwy-dev          # vector lanes, chosen at run time
   libcli11-dev        # the command line
   libfmt-dev          # text

@@ -103,10 +103,10 @@ Result<int> run(CellsArguments& a) {
   if (!renderer) return renderer.error();
   const Result<Picture> picture = draw(a, read->model, *renderer);
   if (!picture) return picture.error();
-  const Result<std::string> bytes =
-      encode(FileFormat::kPng, Frame(), *picture, a.no_background, a.output);
-  if (!bytes) return bytes.error();
   const Stopwatch writing;
+  const Result<std::string> bytes =
+      encode(FileFormat::kPng, Frame(), *picture, a.no_background, a.output, a.renderer.threads);
+  if (!bytes) return bytes.error();
   if (Status written = write_output(a.output, *bytes); !written) return written.error();
   times.write = writing.milliseconds();
   times.total = watch.milliseconds();

@@ -26,7 +26,7 @@ void add_loading_options(CommandLine& line, Loading& loading) {
   group.add_choice("--matrices", matrices_choices(), "kind of matrices",
                    "{}; polished: rotations printed\nwith six digits are rotations again",
                    [&](bool polish) { loading.polish = polish; });
-  group.add_flag("--strict", loading.strict, "fail if anything in FILE is not supported");
+  group.add_flag("--strict", loading.strict, "fail if anything in FILE is not shown");
   group.add_flag("-q,--quiet", loading.quiet, "say nothing but errors");
   group.add_text("--import-root", "DIR", "read files that FILE names only from this folder tree",
                  [&](const std::string& folder) { loading.import_root = folder; });
@@ -70,14 +70,23 @@ FileOptions read_options(const Loading& loading) {
 }
 
 Status say_warnings(const Read& read, const Loading& loading) {
-  if (loading.strict && read.unsupported) {
-    return Error{ErrorKind::kInput, read.refusal + " (--strict)"};
+  const std::string said = read.model.file + ": openscad: ";
+  const auto is_openscads = [&](const std::string& line) {
+    return line.starts_with(said + "WARNING: ");
+  };
+  if (loading.strict) {
+    if (read.unsupported) return Error{ErrorKind::kInput, read.refusal + " (--strict)"};
+    if (!read.missing_file.empty()) {
+      return Error{ErrorKind::kInput, read.missing_file + " (--strict)"};
+    }
+    const auto first = std::ranges::find_if(read.warnings, is_openscads);
+    if (first != read.warnings.end()) return Error{ErrorKind::kInput, *first + " (--strict)"};
   }
   if (loading.scad.hard_warnings) {
-    // What openscad says it has judged itself, and not all of that is a warning.
-    const std::string said = read.model.file + ": openscad: ";
-    const auto first = std::ranges::find_if_not(
-        read.warnings, [&](const std::string& warning) { return warning.starts_with(said); });
+    // Not all that openscad says is a warning.
+    const auto first = std::ranges::find_if(read.warnings, [&](const std::string& line) {
+      return is_openscads(line) || !line.starts_with(said);
+    });
     if (first != read.warnings.end()) {
       return Error{ErrorKind::kInput, *first + " (--hardwarnings)"};
     }
@@ -90,7 +99,7 @@ Status say_warnings(const Read& read, const Loading& loading) {
 Result<Read> load(const std::string& file, const Loading& loading) {
   const auto read_with_progress = [&] {
     const ProgressLine progress(!loading.quiet, "reading");
-    return read_file(file, read_options(loading));
+    return with_limit_option(read_file(file, read_options(loading)));
   };
   if (Status possible = check_loading(file, loading); !possible) return possible.error();
   Result<Read> read = read_with_progress();
@@ -119,24 +128,27 @@ void add_view_options(CLI::App& app, ViewOptions& view, Loading& loading) {
 
 void add_view_options(CLI::App& app, ViewOptions& view) {
   OptionGroup group(app, "View, as in OpenSCAD");
-  group.add_text("--imgsize", "W,H", "pixels (512,512); each at most 65535, together 2^28",
-                 [&](const std::string& text) {
-                   const std::vector<double> size = parse_numbers("--imgsize", text, 2);
-                   const double width = size[0], height = size[1];
-                   if (width != std::floor(width) || height != std::floor(height)) {
-                     refuse("--imgsize", fmt::format("wants whole numbers, not {}", text));
-                   }
-                   // Any number that a double holds is not one that an integer holds.
-                   constexpr double kTooMuch = 1e9;
-                   if (std::fmax(std::fabs(width), std::fabs(height)) > kTooMuch) {
-                     refuse("--imgsize",
-                            fmt::format("wants sides of 1 to {}, not {}", kMostSide, text));
-                   }
-                   const Status possible = check_picture_size(int64_t(width), int64_t(height));
-                   if (!possible) refuse("--imgsize", possible.error().message);
-                   view.width = int(width);
-                   view.height = int(height);
-                 });
+  group.add_text(
+      "--imgsize", "W,H", "pixels (512,512); each at most 65535, together 2^28",
+      [&](const std::string& text) {
+        if (text.find_first_of("xX*") != std::string::npos && text.find(',') == std::string::npos) {
+          refuse("--imgsize", fmt::format("wants W,H as in 800,600, not {}", text));
+        }
+        const std::vector<double> size = parse_numbers("--imgsize", text, 2);
+        const double width = size[0], height = size[1];
+        if (width != std::floor(width) || height != std::floor(height)) {
+          refuse("--imgsize", fmt::format("wants whole numbers, not {}", text));
+        }
+        // Any number that a double holds is not one that an integer holds.
+        constexpr double kTooMuch = 1e9;
+        if (std::fmax(std::fabs(width), std::fabs(height)) > kTooMuch) {
+          refuse("--imgsize", fmt::format("wants sides of 1 to {}, not {}", kMostSide, text));
+        }
+        const Status possible = check_picture_size(int64_t(width), int64_t(height));
+        if (!possible) refuse("--imgsize", possible.error().message);
+        view.width = int(width);
+        view.height = int(height);
+      });
   group.add_text("--camera", "NUMBERS",
                  "tx,ty,tz,rx,ry,rz,d: target, degrees, distance; or\n"
                  "ex,ey,ez,cx,cy,cz: eye, and the point it looks at",
@@ -246,7 +258,6 @@ void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments) {
                              "less the picture takes longer, but is the same",
                              describe_bytes(SubdivideSettings{}.memory)),
                  [&](const std::string& text) {
-                   constexpr uint64_t kMostMemory = uint64_t(1) << 50;
                    arguments.memory = parse_bytes("--memory", text, kMostMemory);
                  });
   group.add_flag("--paper", arguments.paper,

@@ -30,20 +30,22 @@ struct Loading {
 void add_loading_options(CommandLine& line, Loading& loading);
 /// --lenient, of what makes pictures.
 void add_lenient_option(CLI::App& app, Loading& loading);
-/// Fails for what the options ask of a file that is not of the kind. Before anything is read.
+/// Fails if options are given that a file of this kind does not have. Called before it is read.
 Status check_loading(const std::string& file, const Loading& loading);
-/// What equals OpenSCAD's picture has OpenSCAD's facets, unless true curves were chosen.
+/// Style openscad takes OpenSCAD's facets, unless true curves were chosen, and outlines.
 void suit_style(Style style, Loading& loading);
 FileOptions read_options(const Loading& loading);
-/// Says the warnings; or with `strict` and anything that is not supported, the error for that.
+/// Prints the warnings. An error instead if --strict or --hardwarnings refuses something among
+/// them.
 Status say_warnings(const Read& read, const Loading& loading);
 /// Reads a file, shows the progress, and says its warnings.
 Result<Read> load(const std::string& file, const Loading& loading);
 
 /// Says if nothing is seen, and why.
 void say_if_nothing_is_seen(const Model& model, const Frame& frame, const Loading& loading);
-/// The exit code of a picture that was written: what was left out does not pass for success, unless
-/// that was asked for. Says so.
+/// The exit code of a picture that was written. If something was left out that is no success,
+/// unless
+/// --lenient accepts it; then says so.
 int code_for(const Read& read, const Loading& loading);
 
 /// --imgsize, --camera and what belongs to them.
@@ -61,8 +63,8 @@ void add_shadow_option(CLI::App& app, ShadeSettings& shading);
 /// picture is the same. Files are read on as many threads.
 void add_machine_options(CLI::App& app, RendererSettings& settings, Loading& loading);
 
-/// A device that is named is taken, so `auto` is the backend that has devices then; fails if
-/// another one was chosen. After the command line is read.
+/// If a device is named, `auto` becomes the backend that has devices. Fails if another backend was
+/// chosen. To be called when the command line has been read.
 Status settle_device(RendererSettings& settings);
 
 struct SubdivisionArguments {
@@ -74,7 +76,7 @@ struct SubdivisionArguments {
   std::optional<bool> ignore_small;
 };
 void add_subdivision_options(CLI::App& app, SubdivisionArguments& arguments);
-/// The paper's rules if asked for, and then what was asked for one by one.
+/// Applies --paper first, and then the options that were given one by one.
 void apply(const SubdivisionArguments& arguments, RendererSettings& settings);
 
 }  // namespace whittle

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/result.h"
+#include "limits.h"
 
 namespace whittle {
 
@@ -21,7 +22,7 @@ void FrameReader::read_ahead() {
     FileOptions options = options_;
     options.flatten.time = times_[started_];
     running_.push_back(std::async(std::launch::async, [file = file_, options = std::move(options)] {
-      return read_file(file, options);
+      return with_limit_option(read_file(file, options));
     }));
   }
 }

@@ -13,6 +13,7 @@
 #include "lower/lower.h"
 #include "model/instances.h"
 #include "option_group.h"
+#include "subdivide/solid_bounds.h"
 
 namespace whittle {
 namespace {
@@ -35,6 +36,7 @@ struct Info {
   size_t empty = 0;     ///< of those
   size_t faces = 0, half_spaces = 0;
   Bounds bounds;
+  SolidBounds solid;
   double tolerance = 0;
 };
 
@@ -56,11 +58,20 @@ Result<Info> gather(const Model& model) {
   info.bounds = bounds(model);
   info.tolerance = tolerance(info.bounds);
   info.bounds.box = seen_box(model, info.bounds.box);
+  if (info.bounds.bounded && !info.bounds.box.is_empty()) {
+    info.solid = solid_bounds(*scene, 0);
+    info.solid.box = seen_box(model, info.solid.box);
+  }
   return info;
 }
 
 nlohmann::ordered_json to_json(Vec3 v) {
   return {v.x, v.y, v.z};
+}
+
+nlohmann::ordered_json to_json(const Box& box) {
+  if (box.is_empty()) return nullptr;
+  return {{"lo", to_json(box.lo)}, {"hi", to_json(box.hi)}};
 }
 
 std::string describe_json(const Read& read, const Info& info) {
@@ -86,10 +97,8 @@ std::string describe_json(const Read& read, const Info& info) {
   json["half_spaces"] = info.half_spaces;
   json["merged_faces"] = info.faces - info.half_spaces;
   json["bounded"] = info.bounds.bounded;
-  json["bounds"] = nullptr;
-  if (!info.bounds.box.is_empty()) {
-    json["bounds"] = {{"lo", to_json(info.bounds.box.lo)}, {"hi", to_json(info.bounds.box.hi)}};
-  }
+  json["bounds"] = to_json(info.bounds.box);
+  json["solid_box"] = to_json(info.solid.box);
   json["tolerance"] = info.tolerance;
   json["supported"] = !read.unsupported;
   json["warnings"] = read.warnings;
@@ -133,11 +142,22 @@ std::string list_marks(const StatementCounts& counts) {
   return marks.text();
 }
 
+std::string describe(const Box& box) {
+  if (box.is_empty()) return "empty";
+  return fmt::format("[{:.6g}, {:.6g}, {:.6g}] to [{:.6g}, {:.6g}, {:.6g}]", box.lo.x, box.lo.y,
+                     box.lo.z, box.hi.x, box.hi.y, box.hi.z);
+}
+
+/// What the boxes of the parts allow.
 std::string describe_bounds(const Bounds& bounds) {
-  if (bounds.box.is_empty()) return "empty";
-  const Vec3 lo = bounds.box.lo, hi = bounds.box.hi;
-  return fmt::format("[{:.6g}, {:.6g}, {:.6g}] to [{:.6g}, {:.6g}, {:.6g}]{}", lo.x, lo.y, lo.z,
-                     hi.x, hi.y, hi.z, bounds.bounded ? "" : ", and unbounded beyond");
+  const bool is_open = !bounds.bounded && !bounds.box.is_empty();
+  return describe(bounds.box) + (is_open ? ", and unbounded beyond" : "");
+}
+
+/// What is left after all subtractions.
+std::string describe_solid(const Info& info) {
+  if (!info.bounds.bounded) return "without end";
+  return describe(info.solid.box) + (info.solid.exact ? "" : ", or less");
 }
 
 std::string describe_text(const Read& read, const Info& info) {
@@ -159,6 +179,7 @@ std::string describe_text(const Read& read, const Info& info) {
   add("half-spaces", fmt::format("{} for {} faces, {} merged", info.half_spaces, info.faces,
                                  info.faces - info.half_spaces));
   add("bounds", describe_bounds(info.bounds));
+  add("solid's box", describe_solid(info));
   add("tolerance", fmt::format("{:.3g}", info.tolerance));
   add("warnings", fmt::format("{}{}", read.warnings.size(),
                               read.unsupported ? ", and not everything is supported" : ""));

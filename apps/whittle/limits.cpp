@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "base/limit_hint.h"
 #include "option_group.h"
 #include "statistics.h"
 
@@ -23,7 +25,6 @@ constexpr int64_t kMost = 1'000'000'000;
 constexpr uint64_t kLeastMemory = uint64_t(64) << 20;
 
 uint64_t parse_memory(const std::string& text) {
-  constexpr uint64_t kMostMemory = uint64_t(1) << 50;
   const uint64_t bytes = parse_bytes(kOption, text, kMostMemory);
   if (bytes < kLeastMemory) {
     refuse(kOption, fmt::format("memory must be at least {}M, not {}", kLeastMemory >> 20, text));
@@ -78,6 +79,25 @@ void add_limit_option(CLI::App& app, ReadLimits& limits) {
                             defaults.bytes, defaults.depth, defaults.nodes, defaults.values,
                             defaults.facets),
                 [&limits](const std::string& text) { set(limits, text); });
+}
+
+Result<Read> with_limit_option(Result<Read> read) {
+  const auto name_option = [](std::string& message) {
+    for (const char* limit : {"bytes", "depth", "nodes", "values", "facets"}) {
+      const std::string hint = limit_hint(limit);
+      const size_t at = message.find(hint);
+      if (at == std::string::npos) continue;
+      message.replace(at, hint.size(), fmt::format("; {} {}=N raises it", kOption, limit));
+    }
+  };
+  if (!read) {
+    std::string message = read.error().message;
+    name_option(message);
+    return Error{read.error().kind, std::move(message)};
+  }
+  name_option(read->refusal);
+  for (std::string& warning : read->warnings) name_option(warning);
+  return read;
 }
 
 void limit_memory(uint64_t bytes) {

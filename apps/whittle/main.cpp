@@ -1,11 +1,16 @@
 // whittle: the program. The first argument names a command; without one, it renders.
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <cstring>
 #include <exception>
 #include <new>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #ifdef __GLIBC__
@@ -31,12 +36,29 @@ constexpr Command kCommands[] = {{"info", info_command},       {"cells", cells_c
                                  {"compare", compare_command}, {"bench", bench_command},
                                  {"model", model_command},     {"devices", devices_command}};
 
+/// A word that may have been meant for a command: letters only, and no file is called so.
+bool looks_like_command(std::string_view word) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  return !word.empty() && std::ranges::all_of(word, is_letter) &&
+         ::access(std::string(word).c_str(), F_OK) != 0 && errno == ENOENT;
+}
+
+int refuse_command(std::string_view word) {
+  std::string names;
+  for (const Command& command : kCommands) names += fmt::format(", {}", command.name);
+  say_lines(
+      fmt::format("whittle: there is neither a file nor a command '{}'; commands are: {}\n"
+                  "Try 'whittle --help'.",
+                  word, names.substr(2)));
+  return int(ErrorKind::kUsage);
+}
+
 int run(Arguments arguments) {
+  if (arguments.empty()) return render_command(arguments);
   for (const Command& command : kCommands) {
-    if (!arguments.empty() && std::strcmp(arguments[0], command.name) == 0) {
-      return command.run(arguments.subspan(1));
-    }
+    if (std::strcmp(arguments[0], command.name) == 0) return command.run(arguments.subspan(1));
   }
+  if (looks_like_command(arguments[0])) return refuse_command(arguments[0]);
   return render_command(arguments);
 }
 
@@ -63,7 +85,7 @@ void keep_memory() {
 #endif
 }
 
-/// For what no one can catch: a thread that oneTBB cannot start ends the program from within it.
+/// For what no one can catch: what is thrown through a library that is not written in C++.
 [[noreturn]] void end_clearly() {
   // Several threads may get here at once; the first one speaks for all.
   static std::atomic_flag is_ending;

@@ -47,8 +47,8 @@ class CommandLine {
   /// -v and --version.
   void add_version(const char* version);
 
-  /// A flag whose value may also stand in the next word, as openscad reads it: if that is neither
-  /// an option nor what could be a file.
+  /// A flag whose value may also be the next word, as in openscad, if that is neither an option nor
+  /// possibly a file.
   void add_loose_flag(const char* name, const std::function<void(const std::string&)>& set);
 
   /// Reads the command line. If that is the end of it (--help, or a mistake, which is then said),

@@ -1,4 +1,4 @@
-// A camera's way around a model: what pictures cost whose cells are kept from step to step.
+// A camera that moves around a model: what pictures cost if cells are kept from step to step.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -163,7 +163,7 @@ Status write_all(const RenderArguments& a, const std::vector<Output>& outputs, c
     const bool shows_pass = output.format == FileFormat::kPng && a.pass != Pass::kColor;
     const Result<std::string> bytes = encode(
         output.format, frame, shows_pass ? pass_picture(frame, a.pass, !a.no_background) : picture,
-        a.no_background, output.path);
+        a.no_background, output.path, a.renderer.threads);
     if (!bytes) return bytes.error();
     if (Status written = write_output(output.path, *bytes); !written) return written;
   }

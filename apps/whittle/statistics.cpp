@@ -9,9 +9,9 @@
 namespace whittle {
 namespace {
 
-constexpr std::array<const char*, kCellKinds> kKindNames = {
-    "nodes",        "empty",  "full",     "ignored", "conjunctions",
-    "disjunctions", "tables", "programs", "open"};
+constexpr std::array kKindNames = {"nodes",        "empty",  "full",     "ignored", "conjunctions",
+                                   "disjunctions", "tables", "programs", "open"};
+static_assert(kKindNames.size() == kCellKinds);
 
 using Lines = std::back_insert_iterator<std::string>;
 

@@ -43,7 +43,8 @@ class Arena {
   size_t chunk_bytes_ = kFirstChunk;
 };
 
-/// Blocks of 2^n bytes that come and go. What is free is halved for smaller ones.
+/// Blocks of 2^n bytes that are taken and given back. A free block is halved if a smaller one is
+/// asked for.
 class BlockPool {
  public:
   /// Of the least size that holds so many bytes, aligned to 16.

@@ -1,5 +1,5 @@
-// Large pages: the system gives memory page by page when each is first touched, and for a picture
-// in small pages that takes longer than to trace it.
+// Large pages. The system provides memory page by page, when each page is first touched; with small
+// pages that takes longer for a picture than tracing it.
 #pragma once
 
 #include <cstddef>

@@ -22,8 +22,8 @@ class Workers {
   /// count(), at the same time.
   using Body = std::function<void(size_t first, size_t last, size_t worker)>;
 
-  /// Calls `body` for parts that together are 0 <= i < n, in any order, and returns when all is
-  /// done. The parts are of about `grain` or more. What a call throws is thrown here, without
+  /// Calls `body` for parts of 0 <= i < n that cover all of it, in any order, and returns when all
+  /// is done. The parts are of about `grain` or more. What a call throws is thrown here, without
   /// the rest being done. `body` must not start another loop of the same workers.
   void for_parts(size_t n, size_t grain, const Body& body) const;
 

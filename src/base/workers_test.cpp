@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <barrier>
 #include <stdexcept>
+#include <thread>
 
 namespace whittle {
 namespace {
@@ -41,11 +43,34 @@ TEST(Workers, AWorkerDoesOnePartAtATime) {
   EXPECT_EQ(wrong, 0);
 }
 
+TEST(Workers, ServeThreadsThatAskAtOnce) {
+  const Workers workers(3);
+  std::atomic<size_t> sum = 0;
+  {
+    std::vector<std::jthread> askers;
+    for (int i = 0; i < 4; ++i)
+      askers.emplace_back([&] {
+        for (int loop = 0; loop < 50; ++loop)
+          workers.for_parts(100, 1,
+                            [&](size_t first, size_t last, size_t) { sum += last - first; });
+      });
+  }
+  EXPECT_EQ(sum, 4u * 50 * 100);
+}
+
+TEST(Workers, AllAreNeededWhereEachWaitsForTheOthers) {
+  const Workers workers(4);
+  for (int loop = 0; loop < 20; ++loop) {
+    std::barrier together(4);
+    workers.for_parts(4, 1, [&](size_t, size_t, size_t) { together.arrive_and_wait(); });
+  }
+}
+
 TEST(Workers, WhatABodyThrowsArrives) {
   const Workers workers(3);
   const auto failing = [&] {
-    workers.for_parts(100, 1, [](size_t first, size_t, size_t) {
-      if (first == 50) throw std::runtime_error("fifty");
+    workers.for_parts(100, 1, [](size_t first, size_t last, size_t) {
+      if (first <= 50 && 50 < last) throw std::runtime_error("fifty");
     });
   };
   EXPECT_THROW(failing(), std::runtime_error);

@@ -41,31 +41,15 @@ void append_utf8(uint32_t code, std::string& text) {
 
 }  // namespace
 
-const Value* argument(const Statement& statement, size_t index) {
-  return statement.arguments[index];
-}
-
-const Value* defined_argument(const Statement& statement, size_t index) {
-  const Value* const value = argument(statement, index);
-  return value && value->kind != Value::Kind::kUndef ? value : nullptr;
-}
-
 void warn(const Statement& statement, std::string_view problem, Warnings& warnings) {
   const std::string message = fmt::format("{}: {}", statement.type->name, problem);
   warnings.add(message, statement.where, message);
 }
 
-bool is_number(const Value* value) {
-  return value && value->kind == Value::Kind::kNumber;
-}
-bool is_vector(const Value* value) {
-  return value && value->kind == Value::Kind::kVector;
-}
-
 int numbers(const Value* value, double* out, int capacity) {
   if (!is_vector(value)) return -1;
   int count = 0;
-  for (const Value* e = value->begin(); e != value->end(); e += e->extent, ++count) {
+  for (const Value* e = value->begin(); e != value->end(); e = e->end(), ++count) {
     if (!is_number(e) || count == capacity) return -1;
     out[count] = e->number;
   }
@@ -104,7 +88,7 @@ std::optional<std::string> read_string(const Statement& statement, size_t index,
                                        Warnings& warnings) {
   const Value* const value = defined_argument(statement, index);
   if (!value) return std::nullopt;
-  if (value->kind == Value::Kind::kString) return unescaped(value->text);
+  if (value->kind == Value::Kind::kString) return unescaped(value->text());
   warn(statement, fmt::format("{} is not a text; it is ignored", statement.type->parameters[index]),
        warnings);
   return std::nullopt;

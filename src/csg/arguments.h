@@ -19,13 +19,22 @@ namespace whittle {
 void warn(const Statement& statement, std::string_view problem, Warnings& warnings);
 
 /// The argument of a parameter; null if it is not given.
-const Value* argument(const Statement& statement, size_t index);
+inline const Value* argument(const Statement& statement, size_t index) {
+  return statement.arguments[index];
+}
 
 /// The same; undef is not given.
-const Value* defined_argument(const Statement& statement, size_t index);
+inline const Value* defined_argument(const Statement& statement, size_t index) {
+  const Value* const value = argument(statement, index);
+  return value && value->kind != Value::Kind::kUndef ? value : nullptr;
+}
 
-bool is_number(const Value* value);
-bool is_vector(const Value* value);
+inline bool is_number(const Value* value) {
+  return value && value->kind == Value::Kind::kNumber;
+}
+inline bool is_vector(const Value* value) {
+  return value && value->kind == Value::Kind::kVector;
+}
 
 /// Up to `capacity` numbers of a vector; how many there are, or -1 if it holds anything else.
 int numbers(const Value* value, double* out, int capacity);

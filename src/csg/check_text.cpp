@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/limit_hint.h"
 #include "model/model.h"
 
 namespace whittle {
@@ -16,20 +17,23 @@ Result<std::string_view> check_text(std::string_view text, const std::string& fi
   }
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   if (text.size() > limits.bytes) {
-    return refuse(
-        {1, 1},
-        fmt::format("larger than the limit of {} bytes; --limit bytes=N raises it", limits.bytes));
+    return refuse({1, 1}, fmt::format("larger than the limit of {} bytes{}", limits.bytes,
+                                      limit_hint("bytes")));
   }
   if (text.size() > kMostTextBytes) return refuse({1, 1}, "larger than 4 GiB");
-  if (const size_t at = text.find('\0'); at != std::string_view::npos) {
-    SourceLocation where{1, 1};
-    for (const char c : text.substr(0, at)) {
-      where = c == '\n' ? SourceLocation{where.line + 1, 1}
-                        : SourceLocation{where.line, where.column + 1};
-    }
-    return refuse(where, "a NUL byte; this is not a text file");
-  }
   return text;
+}
+
+Status check_nul(std::string_view text, const std::string& file_name) {
+  const size_t at = text.find('\0');
+  if (at == std::string_view::npos) return Done{};
+  SourceLocation where{1, 1};
+  for (const char c : text.substr(0, at)) {
+    where = c == '\n' ? SourceLocation{where.line + 1, 1}
+                      : SourceLocation{where.line, where.column + 1};
+  }
+  return Error{ErrorKind::kInput,
+               message_at(file_name, where, "error: a NUL byte; this is not a text file")};
 }
 
 }  // namespace whittle

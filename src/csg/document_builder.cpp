@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
+#include "base/limit_hint.h"
 #include "csg/leaves.h"
 #include "csg/maps.h"
 #include "csg/operations.h"
@@ -36,7 +38,7 @@ struct FragmentsOf {
 
 DocumentBuilder::DocumentBuilder(const std::string& file, const ReadOptions& options,
                                  Warnings& warnings)
-    : options_(options), warnings_(warnings) {
+    : options_(options), warnings_(warnings), last_polished_(polished(last_written_)) {
   document_.model.file = file;
   document_.model.nodes.push_back({.kind = NodeKind::kUnion, .where = {1, 1}});
   scopes_.emplace_back();
@@ -48,10 +50,8 @@ std::optional<Mistake> DocumentBuilder::add(const Statement& statement, std::str
   std::vector<Node>& nodes = document_.model.nodes;
   // The first node is no statement but the file.
   if (nodes.size() > std::min<size_t>(options_.limits.nodes, kNone - 2)) {
-    return Mistake{
-        statement.where,
-        fmt::format("there are more statements than the limit of {}; --limit nodes=N raises it",
-                    options_.limits.nodes)};
+    return Mistake{statement.where, fmt::format("there are more statements than the limit of {}{}",
+                                                options_.limits.nodes, limit_hint("nodes"))};
   }
   open.node = static_cast<uint32_t>(nodes.size());
   open.is_root = modifiers.root;
@@ -70,6 +70,7 @@ std::optional<Mistake> DocumentBuilder::add(const Statement& statement, std::str
   if (statement.type->passes_fragments && !is_childless(statement.type->meaning) &&
       (given.fn || given.fa || given.fs)) {
     open.scope = static_cast<uint32_t>(scopes_.size());
+    inherits_fragments_ |= parent.scope == 0 && !given.is_complete();
     // Not the top level's, which may still change.
     scopes_.push_back(parent.scope == 0 ? given : given.within(scopes_[parent.scope]));
   }
@@ -105,7 +106,7 @@ std::optional<Mistake> DocumentBuilder::set_meaning(const Statement& statement,
     case Meaning::kScale:
     case Meaning::kMirror: {
       Affine map = make_transform(statement, warnings_);
-      if (options_.polish && meaning == Meaning::kMultmatrix) map = polished(map);
+      if (options_.polish && meaning == Meaning::kMultmatrix) map = polish(map);
       if (map == Affine{}) break;
       node.kind = NodeKind::kTransform;
       node.payload = static_cast<uint32_t>(model.transforms.size());
@@ -184,6 +185,18 @@ std::optional<Mistake> DocumentBuilder::set_meaning(const Statement& statement,
   return std::nullopt;
 }
 
+Affine DocumentBuilder::polish(const Affine& map) {
+  if (!map.is_finite()) return map;
+  // To the bit, for 0 and -0 are two.
+  if (std::memcmp(&map.row, &last_written_.row, sizeof map.row) != 0) {
+    last_written_ = map;
+    last_polished_ = polished(map);
+  }
+  Affine result = last_polished_;
+  result.translation = map.translation;
+  return result;
+}
+
 void DocumentBuilder::set_primitive(Shape shape, Node& node) {
   Model& model = document_.model;
   node.kind = NodeKind::kPrimitive;
@@ -219,6 +232,7 @@ void DocumentBuilder::add_extruded_file(const Statement& statement, OpenStatemen
                    .where = statement.where});
   GivenFragments given = statement.fragments;
   if (open.scope != 0) given = given.within(scopes_[open.scope]);
+  inherits_fragments_ |= open.scope == 0 && !given.is_complete();
   pending_.push_back({NodeKind::kLeaf, false, leaf, given});
   open.drops_children = true;
   open.operands = 1;
@@ -239,6 +253,7 @@ void DocumentBuilder::take_fragments(const Statement& statement, const OpenState
   if (curve.given.is_complete()) {
     set_fragments(curve, curve.given.settings());
   } else {
+    inherits_fragments_ |= parent.scope == 0;
     pending_.push_back(curve);
   }
 }
@@ -267,10 +282,6 @@ void DocumentBuilder::set_fragments(const Pending& curve, const FragmentSettings
       shape);
 }
 
-bool DocumentBuilder::keeps_empty_operands(const Node& node) const {
-  return node.kind == NodeKind::kDifference || node.kind == NodeKind::kIntersection;
-}
-
 void DocumentBuilder::close(const OpenStatement& closed, OpenStatement& parent) {
   if (closed.node == kNone) return;
   Model& model = document_.model;
@@ -291,11 +302,26 @@ void DocumentBuilder::close(const OpenStatement& closed, OpenStatement& parent) 
   if (childless && !keeps_empty_operands(nodes[parent.node])) {
     // An empty operand of a union; elsewhere it counts.
     --parent.operands;
+    parent.drops_empty = true;
     nodes.pop_back();
   } else if (closed.operands == 1 && node.kind != NodeKind::kTransform &&
              node.kind != NodeKind::kColor && node.kind != NodeKind::kOperation) {
     node.end = kRemoved;
+    has_removed_ = true;
   }
+}
+
+void DocumentBuilder::clear() {
+  Model& model = document_.model;
+  model.nodes.resize(1);
+  model.transforms.clear(), model.colors.clear(), model.primitives.clear();
+  document_.leaves.clear(), document_.operations.clear();
+  document_.leaf_ids.clear(), document_.operation_ids.clear();
+  model.statement_count = 0;
+  root_ = kNone;
+  has_removed_ = inherits_fragments_ = false;
+  scopes_.resize(1);
+  pending_.clear();
 }
 
 Document DocumentBuilder::finish() {
@@ -305,7 +331,7 @@ Document DocumentBuilder::finish() {
     set_fragments(curve, curve.given.within(scopes_[0]).settings());
   }
   if (root_ != kNone) keep_subtree(document_, root_);
-  remove_marked(model);
+  if (has_removed_) remove_marked(model);
   return std::move(document_);
 }
 

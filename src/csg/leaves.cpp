@@ -23,8 +23,8 @@ std::string without_escaped_quotes(std::string_view raw) {
 /// Indices below `points`; others are left out, which `understood` then tells.
 std::vector<uint32_t> make_path(const Value& value, size_t points, bool& understood) {
   std::vector<uint32_t> path;
-  path.reserve(value.extent - 1);
-  for (const Value* e = value.begin(); e != value.end(); e += e->extent) {
+  path.reserve(value.size);
+  for (const Value* e = value.begin(); e != value.end(); e = e->end()) {
     // The comparisons are false for NaN.
     if (is_number(e) && e->number >= 0 && e->number < static_cast<double>(points)) {
       path.push_back(static_cast<uint32_t>(e->number));
@@ -64,7 +64,7 @@ Polygon make_polygon(const Statement& statement, Warnings& warnings) {
   Polygon polygon;
   bool understood = true;
   if (const Value* const points = defined_argument(statement, 0); is_vector(points)) {
-    for (const Value* p = points->begin(); p != points->end(); p += p->extent) {
+    for (const Value* p = points->begin(); p != points->end(); p = p->end()) {
       const std::optional<Vec2> point = as_vec2(*p);
       if (!point || !is_finite(*point)) {
         // OpenSCAD shows nothing of such a polygon.
@@ -82,9 +82,9 @@ Polygon make_polygon(const Statement& statement, Warnings& warnings) {
   const Value* const paths = defined_argument(statement, 1);
   if (paths && !is_vector(paths)) {
     warn(statement, "paths is not a vector; it is ignored", warnings);
-  } else if (paths && paths->extent > 1) {
+  } else if (paths && paths->size > 0) {
     polygon.paths.emplace();
-    for (const Value* p = paths->begin(); p != paths->end(); p += p->extent) {
+    for (const Value* p = paths->begin(); p != paths->end(); p = p->end()) {
       understood &= is_vector(p);
       if (!is_vector(p)) continue;
       polygon.paths->push_back(make_path(*p, polygon.points.size(), understood));
@@ -101,7 +101,7 @@ Text make_text(const Statement& statement, bool is_dumped, Warnings& warnings) {
   Text text;
   if (const Value* const raw = defined_argument(statement, 0);
       is_dumped && raw && raw->kind == Value::Kind::kString) {
-    text.text = without_escaped_quotes(raw->text);
+    text.text = without_escaped_quotes(raw->text());
   } else {
     text.text = read_string(statement, 0, warnings).value_or("");
   }

@@ -133,7 +133,7 @@ bool CsgLexer::malformed_number(const char* from) {
   return fail(location(), fmt::format("malformed number {}", quote(word_at(from, end_))));
 }
 
-bool CsgLexer::number(double& value) {
+bool CsgLexer::long_number(double& value) {
   const char* const from = next_;
   const char* to = from;
   if (*from == '0' && (is_followed_by('x') || is_followed_by('X'))) {
@@ -142,6 +142,8 @@ bool CsgLexer::number(double& value) {
     for (value = 0; to != end_ && hexadecimal_digit(*to) >= 0; ++to) {
       value = value * 16 + hexadecimal_digit(*to);
     }
+  } else if (const char* const exact = exact_decimal(from, end_, value)) {
+    to = exact;
   } else {
     const auto [stop, error] = std::from_chars(from, end_, value);
     if (error == std::errc::invalid_argument) return malformed_number(from);
@@ -150,7 +152,7 @@ bool CsgLexer::number(double& value) {
       value = beyond_range({from, static_cast<size_t>(to - from)});
     }
   }
-  if (to != end_ && (is_name_part(*to) || *to == '.')) return malformed_number(from);
+  if (to != end_ && continues_number(*to)) return malformed_number(from);
   next_ = to;
   return true;
 }

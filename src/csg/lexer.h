@@ -4,11 +4,13 @@
 // looks at each character once, copies nothing, and always knows its line and column.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "csg/decimal.h"
 #include "model/model.h"
 
 namespace whittle {
@@ -26,7 +28,7 @@ std::string quote(std::string_view word);
 class CsgLexer {
  public:
   explicit CsgLexer(std::string_view text)
-      : next_(text.data()), end_(text.data() + text.size()), line_start_(text.data()) {}
+      : begin_(text.data()), end_(begin_ + text.size()), next_(begin_), line_start_(begin_) {}
 
   /// Skips blanks and comments. The next character, left where it is; 0 at the end of the text, and
   /// after a comment that is not closed, which is a mistake.
@@ -57,13 +59,64 @@ class CsgLexer {
     return {line_, static_cast<uint32_t>(next_ - line_start_) + 1};
   }
 
+  /// How many bytes of the text are before the cursor.
+  size_t offset() const { return static_cast<size_t>(next_ - begin_); }
+
+  /// A place to come back to.
+  struct Mark {
+    const char* next;
+    const char* line_start;
+    uint32_t line;
+  };
+  Mark mark() const { return {next_, line_start_, line_}; }
+  void go_back(const Mark& mark) {
+    next_ = mark.next;
+    line_start_ = mark.line_start;
+    line_ = mark.line;
+  }
+
+  /// Steps over what comes next as far as another cursor has come that began here.
+  void advance_as(const CsgLexer& piece) {
+    if (piece.line_ > 1) line_start_ = next_ + (piece.line_start_ - piece.begin_);
+    line_ += piece.line_ - 1;
+    next_ += piece.next_ - piece.begin_;
+  }
+
   /// A name, [A-Za-z_$][A-Za-z0-9_$]*, that starts at the cursor; empty if none does.
   std::string_view identifier();
 
   /// A number without a sign: digits with or without a point and an exponent, or 0x and hexadecimal
   /// digits. What is too large is infinite, what is too small is 0. False: a mistake.
   /// Precondition: a digit or a point is next.
-  bool number(double& value);
+  bool number(double& value) {
+    if (end_ - next_ > 8) {
+      const char* const to = short_decimal(next_, value);
+      if (to != nullptr && !continues_number(*to)) {
+        next_ = to;
+        return true;
+      }
+    }
+    return long_number(value);
+  }
+
+  /// A number of a vector in its plainest form, at most a blank before it and a comma or a closing
+  /// bracket right behind it: that mark, which is taken too. 0, and nothing is taken, if what comes
+  /// is anything else.
+  char plain_element(double& value) {
+    constexpr ptrdiff_t kEnough = 20;
+    if (end_ - next_ < kEnough) return '\0';
+    const char* const from = next_ + (*next_ == ' ');
+    const bool negative = *from == '-';
+    const char* to = short_decimal(from + negative, value);
+    if (to == nullptr) to = longer_decimal(from + negative, value);
+    if (to == nullptr || (*to != ',' && *to != ']')) {
+      to = exact_decimal(from + negative, end_, value);
+      if (to == nullptr || to == end_ || (*to != ',' && *to != ']')) return '\0';
+    }
+    if (negative) value = -value;
+    next_ = to + 1;
+    return *to;
+  }
 
   /// A string; `raw` is what stands between the quotes, escapes as written. False: a mistake.
   /// Precondition: a quote is next.
@@ -91,11 +144,15 @@ class CsgLexer {
   bool skip_rare_blank();
   bool skip_comment();
   void move_to(const char* target);
+  bool long_number(double& value);
   bool malformed_number(const char* from);
+  /// Whether a character right behind a number makes it malformed, or a longer one.
+  static bool continues_number(char c);
   bool is_after_string() const;
 
-  const char* next_;
+  const char* begin_;
   const char* end_;
+  const char* next_;
   const char* line_start_;
   uint32_t line_ = 1;
   bool no_dumped_text_ahead_ = false;
@@ -110,6 +167,9 @@ inline bool is_digit(char c) {
 }
 inline bool is_name_part(char c) {
   return is_name_start(c) || is_digit(c);
+}
+inline bool CsgLexer::continues_number(char c) {
+  return c != ',' && c != ']' && c != ')' && (is_name_part(c) || c == '.');
 }
 
 }  // namespace whittle

@@ -18,11 +18,11 @@ Affine multmatrix(const Statement& statement, Warnings& warnings) {
   }
   int i = 0;
   bool understood = true;
-  for (const Value* row = rows->begin(); row != rows->end() && i < 4; row += row->extent, ++i) {
+  for (const Value* row = rows->begin(); row != rows->end() && i < 4; row = row->end(), ++i) {
     understood &= is_vector(row);
     if (!is_vector(row)) continue;
     int j = 0;
-    for (const Value* e = row->begin(); e != row->end() && j < 4; e += e->extent, ++j) {
+    for (const Value* e = row->begin(); e != row->end() && j < 4; e = e->end(), ++j) {
       understood &= is_number(e);
       if (is_number(e)) m[i][j] = e->number;
     }
@@ -49,7 +49,7 @@ Affine rotate(const Statement& statement, Warnings& warnings) {
     double angle[3] = {0, 0, 0};
     int i = 0;
     bool understood = true;
-    for (const Value* e = a->begin(); e != a->end(); e += e->extent, ++i) {
+    for (const Value* e = a->begin(); e != a->end(); e = e->end(), ++i) {
       if (i < 3 && is_number(e)) {
         angle[i] = e->number;
       } else {
@@ -111,7 +111,7 @@ Rgba make_color(const Statement& statement, Warnings& warnings) {
     float rgba[4] = {1, 1, 1, 1};
     int i = 0;
     bool are_known = true, are_within = true;
-    for (const Value* e = c->begin(); e != c->end() && i < 4; e += e->extent, ++i) {
+    for (const Value* e = c->begin(); e != c->end() && i < 4; e = e->end(), ++i) {
       const bool is_known = is_number(e) && std::isfinite(e->number);
       rgba[i] = is_known ? static_cast<float>(e->number) : 0;
       are_known &= is_known;
@@ -124,13 +124,13 @@ Rgba make_color(const Statement& statement, Warnings& warnings) {
     if (!are_within) warn(statement, "a component is not between 0 and 1", warnings);
     color = {rgba[0], rgba[1], rgba[2], rgba[3]};
   } else if (c && c->kind == Value::Kind::kString) {
-    if (const std::optional<Rgba> named = parse_color(c->text)) {
+    if (const std::optional<Rgba> named = parse_color(c->text())) {
       color = *named;
     } else {
       const std::string kind = "color: the name is not known; nothing is coloured";
       warnings.add(
           kind, statement.where,
-          fmt::format("color: the name {} is not known; nothing is coloured", quote(c->text)));
+          fmt::format("color: the name {} is not known; nothing is coloured", quote(c->text())));
     }
   } else if (c && c->kind != Value::Kind::kUndef) {
     warn(statement, "c is neither a name nor a vector; nothing is coloured", warnings);

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "base/limit_hint.h"
 #include "csg/read_csg.h"
 #include "csg/test_support.h"
 
@@ -140,30 +141,29 @@ TEST(CsgMistakes, BracesAloneArePaired) {
 }
 
 TEST(CsgMistakes, LimitsAreNamed) {
-  EXPECT_EQ(read_bad("{{{", {.limits = {.depth = 2}}),
-            "t.csg:1:3: error: statements are nested deeper than the limit of 2; --limit depth=N "
-            "raises it");
-  EXPECT_EQ(read_bad("group(){group(){group(){}}}", {.limits = {.depth = 2}}),
-            "t.csg:1:24: error: statements are nested deeper than the limit of 2; --limit "
-            "depth=N raises it");
+  EXPECT_EQ(
+      read_bad("{{{", {.limits = {.depth = 2}}),
+      "t.csg:1:3: error: statements are nested deeper than the limit of 2" + limit_hint("depth"));
+  EXPECT_EQ(
+      read_bad("group(){group(){group(){}}}", {.limits = {.depth = 2}}),
+      "t.csg:1:24: error: statements are nested deeper than the limit of 2" + limit_hint("depth"));
   EXPECT_EQ(tree(read_good("group(){group(){cube();}}", {.limits = {.depth = 2}}).model), "U(c1)");
-  EXPECT_EQ(read_bad("cube();cube();cube();", {.limits = {.nodes = 2}}),
-            "t.csg:1:15: error: there are more statements than the limit of 2; --limit "
-            "nodes=N raises it");
   EXPECT_EQ(
-      read_bad("cube();\ncube([1, 2, [3]]);", {.limits = {.values = 4}}),
-      "t.csg:2:14: error: the statement has more values than the limit of 4; --limit values=N "
-      "raises it");
-  EXPECT_EQ(
-      read_bad("v = [1, 2, 3]; cube([v, v]);", {.limits = {.values = 8}}),
-      "t.csg:1:25: error: the statement has more values than the limit of 8; --limit values=N "
-      "raises it");
+      read_bad("cube();cube();cube();", {.limits = {.nodes = 2}}),
+      "t.csg:1:15: error: there are more statements than the limit of 2" + limit_hint("nodes"));
+  EXPECT_EQ(read_bad("cube();\ncube([1, 2, [3]]);", {.limits = {.values = 4}}),
+            "t.csg:2:14: error: the statement has more values than the limit of 4" +
+                limit_hint("values"));
+  EXPECT_EQ(read_bad("v = [1, 2, 3]; cube([v, v]);", {.limits = {.values = 8}}),
+            "t.csg:1:25: error: the statement has more values than the limit of 8" +
+                limit_hint("values"));
   EXPECT_EQ(read_good("v = [1, 2, 3]; cube([v, v]);", {.limits = {.values = 9}}).warnings.size(),
             1u);
   EXPECT_EQ(
       read_bad("cylinder($fn=8);\nsphere($fn=4);", {.limits = {.facets = 15}}),
       "t.csg:2:1: error: with this shape the model has 16 facets, more than the limit of 15; a "
-      "smaller $fn gives fewer, --curves smooth none, --limit facets=N raises it");
+      "smaller $fn gives fewer, smooth curves none" +
+          limit_hint("facets"));
   EXPECT_EQ(tree(read_good("cylinder($fn=8);sphere($fn=4);", {.limits = {.facets = 16}}).model),
             "U(y1 s2)");
 }
@@ -176,8 +176,8 @@ TEST(CsgMistakes, TheDefaultLimitsLetAMillionLevelsPassAndNoMore) {
   };
   EXPECT_EQ(tree_of(nested(1'000'000)), "U(c1)");
   EXPECT_EQ(read_bad(nested(1'000'001)),
-            "t.csg:1:7000008: error: statements are nested deeper than the limit of 1000000; "
-            "--limit depth=N raises it");
+            "t.csg:1:7000008: error: statements are nested deeper than the limit of 1000000" +
+                limit_hint("depth"));
 }
 
 // A file with some of everything.

@@ -97,7 +97,7 @@ Resize resize(const Statement& statement, Warnings& warnings) {
     bool understood = is_vector(size);
     int axis = 0;
     for (const Value* e = size->begin(); is_vector(size) && e != size->end();
-         e += e->extent, ++axis) {
+         e = e->end(), ++axis) {
       const bool is_size = axis < 3 && is_number(e) && std::isfinite(e->number);
       understood &= is_size;
       if (is_size) how.size[axis] = e->number;
@@ -111,7 +111,7 @@ Resize resize(const Statement& statement, Warnings& warnings) {
     if (is_vector(automatic)) {
       size_t axis = 0;
       for (const Value* e = automatic->begin(); e != automatic->end() && axis < 3;
-           e += e->extent, ++axis) {
+           e = e->end(), ++axis) {
         how.automatic[axis] = is_true(*e);
       }
     } else {

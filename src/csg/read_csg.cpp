@@ -16,8 +16,14 @@ Result<Read> read_csg(std::string_view text, const std::string& file_name,
                       const ReadOptions& options) {
   const Result<std::string_view> checked = check_text(text, file_name, options.limits);
   if (!checked) return checked.error();
+  TextInMemory source(*checked);
+  return read_csg(source, file_name, options);
+}
+
+Result<Read> read_csg(TextSource& source, const std::string& file_name,
+                      const ReadOptions& options) {
   Warnings warnings(file_name);
-  Result<Document> document = read_document(*checked, file_name, options, warnings);
+  Result<Document> document = read_document(source, file_name, options, warnings);
   if (!document) return document.error();
   const EvaluateOptions evaluating{.curves = options.curves,
                                    .most_facets = options.limits.facets,
@@ -34,8 +40,12 @@ Result<Read> read_csg(std::string_view text, const std::string& file_name,
     refusal =
         message_at(file_name, unsupported->where, fmt::format("error: {}", unsupported->message));
   }
-  return Read{std::move(*model), std::move(counts), warnings.take(), unsupported,
-              std::move(refusal)};
+  return Read{.model = std::move(*model),
+              .counts = std::move(counts),
+              .warnings = warnings.take(),
+              .unsupported = unsupported,
+              .refusal = std::move(refusal),
+              .missing_file = warnings.missing_file()};
 }
 
 }  // namespace whittle

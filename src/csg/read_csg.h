@@ -15,6 +15,7 @@
 
 #include "base/box.h"
 #include "base/result.h"
+#include "csg/text_source.h"
 #include "model/model.h"
 #include "model/statement_counts.h"
 #include "model/warnings.h"
@@ -32,7 +33,10 @@ using NamedFiles = std::function<Result<std::optional<std::string>>(const std::s
 struct ReadOptions {
   Curves curves = Curves::kAuto;
   bool polish = true;  ///< rotations in `multmatrix` get back what printing took (polish.h)
-  int threads = 0;     ///< that bodies are built on; 0: all
+  int threads = 0;     ///< 0: all
+  /// A text of several times so many bytes is read in pieces of about that, on all threads. What is
+  /// read, and what is said of it, is the same for any.
+  size_t piece_bytes = size_t{1} << 18;
   ReadLimits limits{};
   /// Reads the files that the text names (host/named_files.h). Without it the text can name none.
   NamedFiles named_files{};
@@ -55,6 +59,9 @@ struct Read {
   std::optional<Unsupported> unsupported;
   /// That as a full message, `file:line:column: error: ...`; empty if there is nothing.
   std::string refusal;
+  /// Likewise the first file that it names and that is not there. OpenSCAD shows nothing for such a
+  /// file and goes on, so it does not count as unsupported.
+  std::string missing_file{};
   /// Of read_file() only: all files that were read for it, the one asked for first, unless it is
   /// standard input, then those that it names, in the order in which they were first asked for.
   std::vector<std::string> files{};
@@ -64,6 +71,11 @@ struct Read {
 /// Errors are kInput with one line `file:line:column: error: ...`. One pass, linear in the text;
 /// nesting costs memory, never stack.
 Result<Read> read_csg(std::string_view text, const std::string& file_name,
+                      const ReadOptions& options = {});
+
+/// The same of a text that need not be in memory. What check_text() looks for in its beginning is
+/// not looked for.
+Result<Read> read_csg(TextSource& source, const std::string& file_name,
                       const ReadOptions& options = {});
 
 }  // namespace whittle

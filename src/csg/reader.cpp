@@ -1,279 +1,182 @@
-// From .csg text to a document: the grammar and the modifiers.
-//
-// file      = { statement | name "=" value ";" | ";" | "{" file "}" }
-// statement = { "%" | "#" | "!" | "*" } name "(" arguments ")" ( ";" | statement | "{" file "}" )
-//
-// The stack of open statements is a vector, so depth costs memory and nothing else.
+// A text is read in pieces, each on its own and by whichever thread has time, and the pieces are
+// appended one after the other. A piece does not know what it stands in, nor whether it begins
+// where a statement does. If what comes before it shows that it took either for something else, it
+// is read once more, after that; so what is read never depends on how the text was cut.
 #include "csg/reader.h"
 
-#include <fmt/format.h>
-
+#include <condition_variable>
+#include <cstring>
+#include <memory>
+#include <mutex>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "csg/document_builder.h"
-#include "csg/lexer.h"
-#include "csg/statement_counter.h"
-#include "csg/statements.h"
-#include "csg/values.h"
-#include "csg/views.h"
+#include "base/workers.h"
+#include "csg/check_text.h"
+#include "csg/statement_reader.h"
+#include "csg/text_pieces.h"
 
 namespace whittle {
 namespace {
 
-class CsgReader {
- public:
-  CsgReader(std::string_view text, const std::string& file_name, const ReadOptions& options,
-            Warnings& warnings)
-      : options_(options),
-        file_(file_name),
-        lexer_(text),
-        warnings_(warnings),
-        builder_(file_name, options, warnings) {
-    arguments_.most_values = options.limits.values;
-    stack_.push_back(builder_.root());
-  }
+/// A piece of the text while it is read.
+struct Piece {
+  Piece(const std::string& file, const ReadOptions& options)
+      : warnings(file), reader(file, options, warnings) {}
 
-  Result<Document> read() {
-    if (!read_statements() || lexer_.mistake()) {
-      return Error{ErrorKind::kInput, message_at(file_, lexer_.mistake()->where,
-                                                 "error: " + lexer_.mistake()->message)};
-    }
-    Document document = builder_.finish();
-    document.counts = counter_.counts();
-    return document;
-  }
-
- private:
-  bool read_statements();
-  bool read_statement();
-  Modifiers read_modifiers();
-  bool read_assignment(std::string_view name, SourceLocation where);
-  bool read_end_of_file();
-  bool open_block();
-  void close_braces();
-  bool admit_depth(SourceLocation where);
-  bool open_children(const StatementType& type, OpenStatement open);
-  void close_singles();
-
-  /// Warns of what is not understood, and of what is done instead.
-  void warn_unsupported(SourceLocation where, const std::string& what, std::string_view instead) {
-    const std::string message = fmt::format("{}, {}", what, instead);
-    if (stack_.back().is_background) {
-      warnings_.add(message, where, message);
-    } else {
-      warnings_.add_unsupported(message, where, message, what);
-    }
-  }
-
-  bool expected(std::string_view what) {
-    lexer_.peek();
-    const SourceLocation where = lexer_.location();
-    return lexer_.fail(where, fmt::format("expected {} before {}", what, lexer_.describe_next()));
-  }
-
-  const ReadOptions& options_;
-  const std::string& file_;
-  CsgLexer lexer_;
-  Warnings& warnings_;
-  DocumentBuilder builder_;
-  StatementCounter counter_;
-  Constants constants_;
-  std::vector<OpenStatement> stack_;
-  CsgArguments arguments_;
+  UninitializedVector<char> buffer;
+  TextPiece text;
+  Warnings warnings;
+  StatementReader reader;
 };
 
-/// True if the arguments of text() are such as OpenSCAD prints them.
-bool are_dumped(const CsgArguments& arguments) {
-  return arguments.list.size() > 1 && arguments.list[0].name == "text" &&
-         arguments.list[1].name == "size";
-}
+/// Reads all of a text but its end.
+class PieceReader {
+ public:
+  PieceReader(TextSource& source, const std::string& file, const ReadOptions& options,
+              size_t workers, StatementReader& whole)
+      : source_(source),
+        size_(source.place().size()),
+        file_(file),
+        options_(options),
 
-bool CsgReader::read_statements() {
-  for (;;) {
-    const char c = lexer_.peek();
-    if (c == '\0') return read_end_of_file();
-    if (c == '}' && !stack_.back().single) {
-      if (stack_.size() == 1) return lexer_.fail(lexer_.location(), "no '{' is open for this '}'");
-      close_braces();
-    } else if (c == '{' && !stack_.back().single) {
-      if (!open_block()) return false;
-    } else if (c == ';' && !stack_.back().single) {
-      lexer_.advance();
-    } else if (!read_statement()) {
-      return false;
+        read_((size_ + options.piece_bytes - 1) / options.piece_bytes),
+        // So many may wait for one that takes longer.
+        ahead_(2 * workers + 2),
+        whole_(whole) {}
+
+  /// What each of the workers does.
+  void work() {
+    try {
+      read_pieces();
+    } catch (...) {
+      // Nobody is to wait for what does not come.
+      const std::lock_guard lock(mutex_);
+      stop_ = Stop::kThrown;
+      moved_on_.notify_all();
+      throw;
     }
   }
-}
 
-bool CsgReader::read_end_of_file() {
-  if (lexer_.mistake()) return false;
-  const OpenStatement& open = stack_.back();
-  if (open.single) return expected("a statement");
-  if (stack_.size() > 1) {
-    return expected(fmt::format("the '}}' for the '{{' of line {}, column {}", open.where.line,
-                                open.where.column));
-  }
-  return true;
-}
+  /// Once all have done: why not all is read.
+  enum class Stop { kNone, kMistake, kNotReadable, kNul, kThrown };
+  Stop stop() const { return stop_; }
 
-bool CsgReader::open_block() {
-  OpenStatement block = stack_.back();
-  block.where = lexer_.location();
-  block.is_block = true;
-  if (!admit_depth(block.where)) return false;
-  lexer_.advance();
-  stack_.push_back(block);
-  return true;
-}
+ private:
+  bool is_over() const { return stop_ != Stop::kNone || next_ == read_.size(); }
 
-void CsgReader::close_braces() {
-  lexer_.advance();
-  const OpenStatement closed = stack_.back();
-  stack_.pop_back();
-  if (closed.is_block) {
-    stack_.back().operands = closed.operands;
-  } else {
-    builder_.close(closed, stack_.back());
-    close_singles();
-  }
-}
-
-bool CsgReader::admit_depth(SourceLocation where) {
-  if (stack_.size() <= options_.limits.depth) return true;
-  return lexer_.fail(where, fmt::format("statements are nested deeper than the limit of {}; "
-                                        "--limit depth=N raises it",
-                                        options_.limits.depth));
-}
-
-Modifiers CsgReader::read_modifiers() {
-  Modifiers modifiers;
-  for (;; lexer_.advance()) {
-    switch (lexer_.peek()) {
-      case '%':
-        modifiers.background = true;
-        break;
-      case '#':
-        modifiers.highlight = true;
-        break;
-      case '!':
-        modifiers.root = true;
-        break;
-      case '*':
-        modifiers.disabled = true;
-        break;
-      default:
-        return modifiers;
+  void read_pieces() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      // Who reads the piece that is waited for is at work, not waiting.
+      moved_on_.wait(lock, [&] { return is_over() || next_ < appended_ + ahead_; });
+      if (is_over()) return;
+      const size_t number = next_++;
+      std::unique_ptr<Piece> piece = take_piece();
+      lock.unlock();
+      piece->text = read_piece(source_, number, options_.piece_bytes, piece->buffer);
+      const std::string_view text = piece->text.text;
+      const bool has_nul = std::memchr(text.data(), 0, text.size()) != nullptr;
+      if (!has_nul) piece->reader.read_piece(text, piece->text.is_last);
+      lock.lock();
+      if (has_nul) stop_ = Stop::kNul;
+      if (!piece->text.is_whole) stop_ = Stop::kNotReadable;
+      read_[number] = std::move(piece);
+      append_what_is_there();
     }
   }
-}
 
-bool CsgReader::read_statement() {
-  const Modifiers modifiers = read_modifiers();
-  const SourceLocation where = lexer_.location();
-  const std::string_view name = lexer_.identifier();
-  if (name.empty()) return expected("a statement");
-  const StatementType& type = find_statement(name);
-  if (type.meaning == Meaning::kLanguage) {
-    return lexer_.fail(where, fmt::format("'{}' is for OpenSCAD to evaluate; give the file a name "
-                                          "that ends in .scad",
-                                          name));
-  }
-  const char c = lexer_.peek();
-  if (c == '=') return read_assignment(name, where);
-  if (c != '(') return expected(fmt::format("'(' after {}", quote(name)));
-  lexer_.advance();
-  if (!read_arguments(lexer_, constants_, warnings_, type.meaning == Meaning::kText, arguments_)) {
-    return false;
+  std::unique_ptr<Piece> take_piece() {
+    if (free_.empty()) return std::make_unique<Piece>(file_, options_);
+    std::unique_ptr<Piece> piece = std::move(free_.back());
+    free_.pop_back();
+    return piece;
   }
 
-  builder_.count(type.meaning);
-  counter_.count(type, name, modifiers);
-  const OpenStatement& parent = stack_.back();
-  OpenStatement open{.scope = parent.scope};
-  open.drops_children = parent.drops_children || modifiers.disabled;
-  if (!open.drops_children) {
-    const Statement statement = bind_arguments(type, where, arguments_, warnings_);
-    std::optional<Mistake> mistake =
-        builder_.add(statement, name, modifiers, are_dumped(arguments_), parent, open);
-    if (mistake) return lexer_.fail(mistake->where, std::move(mistake->message));
-  }
-  return open_children(type, open);
-}
-
-/// Reads what follows the arguments of a statement.
-bool CsgReader::open_children(const StatementType& type, OpenStatement open) {
-  const char c = lexer_.peek();
-  if (c == ';') {
-    lexer_.advance();
-    builder_.close(open, stack_.back());
-    close_singles();
-    return true;
-  }
-  open.where = lexer_.location();
-  open.single = c != '{';
-  if (open.single && c != '%' && c != '#' && c != '!' && c != '*' && !is_name_start(c)) {
-    return expected("';', '{' or a statement");
-  }
-  if (!admit_depth(open.where)) return false;
-  if (!open.single) lexer_.advance();
-  if (is_childless(type.meaning) && !open.drops_children) {
-    open.drops_children = true;
-    if (lexer_.peek() != '}') {
-      const std::string message = fmt::format("{} takes no children; they are ignored{}", type.name,
-                                              open.single ? " (is a ';' missing?)" : "");
-      warnings_.add(message, open.where, message);
+  void append_what_is_there() {
+    for (; !is_stopped() && appended_ < read_.size() && read_[appended_]; ++appended_) {
+      append(*read_[appended_]);
+      free_.push_back(std::move(read_[appended_]));
     }
+    moved_on_.notify_all();
   }
-  stack_.push_back(open);
-  return true;
-}
+  bool is_stopped() const { return stop_ != Stop::kNone; }
 
-/// Closes the statements whose only child, without braces, has just been closed.
-void CsgReader::close_singles() {
-  while (stack_.back().single) {
-    const OpenStatement closed = stack_.back();
-    stack_.pop_back();
-    builder_.close(closed, stack_.back());
-  }
-}
-
-bool CsgReader::read_assignment(std::string_view name, SourceLocation where) {
-  lexer_.advance();
-  arguments_.values.clear();
-  if (!read_value(lexer_, constants_, warnings_, arguments_)) return false;
-  if (lexer_.peek() != ';') return expected_after_value(lexer_, "';'");
-  lexer_.advance();
-  if (stack_.back().node != 0) {
-    if (stack_.back().single) return lexer_.fail(where, "expected a statement, not an assignment");
-    if (!stack_.back().drops_children) {
-      warn_unsupported(where, "an assignment inside of a statement is not supported yet",
-                       "it is ignored");
+  void append(Piece& piece) {
+    if (piece.text.text.empty()) return;
+    if (whole_.offset() == piece.text.first) whole_.append(piece.reader);
+    const size_t last = piece.text.last();
+    if (whole_.is_before(last)) {
+      if (!source_.load()) {
+        stop_ = Stop::kNotReadable;
+      } else if (!whole_.read_until(last)) {
+        stop_ = Stop::kMistake;
+      }
     }
-    return true;
+    whole_.make_room(static_cast<double>(last) / static_cast<double>(size_));
   }
-  if (!constants_.admit(lexer_, name, where)) return false;
-  const Value& value = arguments_.values.front();
-  if (!constants_.assign(name, value)) {
-    warn_unsupported(where, "a name is assigned after it was used",
-                     "where OpenSCAD would use this value too");
+
+  TextSource& source_;
+  const size_t size_;
+  const std::string& file_;
+  const ReadOptions& options_;
+
+  std::mutex mutex_;  ///< of all below
+  std::condition_variable moved_on_;
+  size_t next_ = 0, appended_ = 0;
+  std::vector<std::unique_ptr<Piece>> read_;  ///< and not yet appended
+  std::vector<std::unique_ptr<Piece>> free_;
+  const size_t ahead_;
+  StatementReader& whole_;
+  Stop stop_ = Stop::kNone;
+};
+
+PieceReader::Stop read_in_pieces(TextSource& source, const std::string& file,
+                                 const ReadOptions& options, StatementReader& whole) {
+  if (options.threads == 1) {
+    PieceReader pieces(source, file, options, 1, whole);
+    pieces.work();
+    return pieces.stop();
   }
-  if (!builder_.assign(name, value)) {
-    assign_view(name, value, where, builder_.view(), warnings_);
-  } else if (value.kind != Value::Kind::kNumber) {
-    const std::string message = fmt::format("{} is not a number; it is ignored", name);
-    warnings_.add(message, where, message);
-  }
-  return true;
+  const Workers workers(options.threads);
+  PieceReader pieces(source, file, options, workers.count(), whole);
+  workers.for_parts(workers.count(), 1, [&](size_t, size_t, size_t) { pieces.work(); });
+  return pieces.stop();
 }
 
 }  // namespace
 
+Result<Document> read_document(TextSource& source, const std::string& file_name,
+                               const ReadOptions& options, Warnings& warnings) {
+  StatementReader whole(file_name, options, warnings);
+  whole.begin(source.place());
+  using Stop = PieceReader::Stop;
+  Stop stop = Stop::kNone;
+  // Other threads are not worth their start for less.
+  if (source.place().size() / 4 > options.piece_bytes) {
+    stop = read_in_pieces(source, file_name, options, whole);
+  } else {
+    if (Status loaded = source.load(); !loaded) return loaded.error();
+    if (Status text = check_nul(source.place(), file_name); !text) return text.error();
+  }
+  if (stop == Stop::kNone && whole.read_rest()) return whole.finish();
+  // That it is no text at all comes before any mistake in it.
+  if (Status loaded = source.load(); !loaded) return loaded.error();
+  if (Status text = check_nul(source.place(), file_name); !text) return text.error();
+  if (stop == Stop::kNul || stop == Stop::kNotReadable) {
+    // It has changed meanwhile; so what is there now counts.
+    warnings.clear();
+    return read_document(source.place(), file_name, options, warnings);
+  }
+  return Error{ErrorKind::kInput,
+               message_at(file_name, whole.mistake().where, "error: " + whole.mistake().message)};
+}
+
 Result<Document> read_document(std::string_view text, const std::string& file_name,
                                const ReadOptions& options, Warnings& warnings) {
-  return CsgReader(text, file_name, options, warnings).read();
+  TextInMemory source(text);
+  return read_document(source, file_name, options, warnings);
 }
 
 }  // namespace whittle

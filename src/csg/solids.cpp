@@ -68,7 +68,7 @@ Halfspace make_halfspace(const Statement& statement, Warnings& warnings) {
 Polyhedron make_polyhedron(const Statement& statement, std::string& mistake) {
   Polyhedron polyhedron;
   if (const Value* const points = argument(statement, 0); is_vector(points)) {
-    for (const Value* p = points->begin(); p != points->end(); p += p->extent) {
+    for (const Value* p = points->begin(); p != points->end(); p = p->end()) {
       const std::optional<Vec3> point = vec3_or_vec2(p, 0);
       if (!point) {
         mistake =
@@ -82,14 +82,14 @@ Polyhedron make_polyhedron(const Statement& statement, std::string& mistake) {
   const Value* const faces = argument(statement, argument(statement, 1) ? 1 : 3);
   if (!is_vector(faces)) return polyhedron;
   size_t number = 0;
-  for (const Value* f = faces->begin(); f != faces->end(); f += f->extent, ++number) {
+  for (const Value* f = faces->begin(); f != faces->end(); f = f->end(), ++number) {
     if (!is_vector(f)) {
       mistake = fmt::format("faces[{}] is not a vector", number);
       return {};
     }
     std::vector<uint32_t> face;
-    face.reserve(f->extent - 1);
-    for (const Value* corner = f->begin(); corner != f->end(); corner += corner->extent) {
+    face.reserve(f->size);
+    for (const Value* corner = f->begin(); corner != f->end(); corner = corner->end()) {
       // The comparisons are false for NaN.
       if (!is_number(corner) || !(corner->number >= 0) ||
           !(corner->number < static_cast<double>(polyhedron.points.size()))) {

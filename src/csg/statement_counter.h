@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <map>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -15,14 +16,20 @@ namespace whittle {
 
 class StatementCounter {
  public:
-  /// A statement, dropped or not. `name` must outlive this.
+  /// A statement, dropped or not.
   void count(const StatementType& type, std::string_view name, const Modifiers& modifiers);
+
+  /// All that another has counted.
+  void add(const StatementCounter& other);
 
   StatementCounts counts() const;
 
  private:
+  void add(const StatementType* type, size_t number);
+  void add(std::string_view name, size_t number);
+
   std::vector<std::pair<const StatementType*, size_t>> known_;  ///< few, in order of appearance
-  std::map<std::string_view, size_t> unknown_;
+  std::map<std::string, size_t, std::less<>> unknown_;
   StatementCounts marks_;
 };
 

@@ -1,4 +1,5 @@
 #include "csg/values.h"
+#include "base/limit_hint.h"
 
 #include <fmt/format.h>
 
@@ -21,11 +22,11 @@ constexpr size_t kMostNames = 1'000'000, kMostArguments = 100'000;
 constexpr std::string_view kOperators = "+-*/%<>=!&|?:([.^";
 
 constexpr Value kUndefined{};
-constexpr Value kTrue{.number = 1, .text = {}, .kind = Value::Kind::kBool};
-constexpr Value kFalse{.number = 0, .text = {}, .kind = Value::Kind::kBool};
+constexpr Value kTrue{.number = 1, .kind = Value::Kind::kBool};
+constexpr Value kFalse{.number = 0, .kind = Value::Kind::kBool};
 
 Value number_value(double x) {
-  return {.number = x, .text = {}, .kind = Value::Kind::kNumber};
+  return {.number = x, .kind = Value::Kind::kNumber};
 }
 
 std::optional<Value> built_in(std::string_view name) {
@@ -36,9 +37,8 @@ std::optional<Value> built_in(std::string_view name) {
 }
 
 bool too_many_values(CsgLexer& lexer, SourceLocation where, size_t limit) {
-  return lexer.fail(where, fmt::format("the statement has more values than the limit of {}; "
-                                       "--limit values=N raises it",
-                                       limit));
+  return lexer.fail(where, fmt::format("the statement has more values than the limit of {}{}",
+                                       limit, limit_hint("values")));
 }
 
 /// Adds a value of that kind, to be filled in; null if there are too many, which is a mistake then.
@@ -57,11 +57,22 @@ bool append_named(CsgLexer& lexer, std::string_view name, SourceLocation where,
   if (!constants.admit(lexer, name, where)) return false;
   const Value* const value = constants.look_up(name, where, warnings);
   std::vector<Value>& values = arguments.values;
-  if (values.size() + value->extent > arguments.most_values) {
+  if (values.size() + value->extent() > arguments.most_values) {
     return too_many_values(lexer, where, arguments.most_values);
   }
   values.insert(values.end(), value, value->end());
   return true;
+}
+
+/// Reads a string; one that OpenSCAD dumped as the argument of text() has its own rule.
+bool read_string(CsgLexer& lexer, CsgArguments& arguments, bool is_dumped_text) {
+  Value* const value = add_value(lexer, arguments, Value::Kind::kString);
+  if (!value) return false;
+  std::string_view text;
+  const bool is_read = is_dumped_text ? lexer.dumped_text(text) : lexer.string(text);
+  value->first_char = text.data();
+  value->size = static_cast<uint32_t>(text.size());
+  return is_read;
 }
 
 /// Reads what is not a vector.
@@ -69,8 +80,7 @@ bool read_scalar(CsgLexer& lexer, Constants& constants, Warnings& warnings,
                  CsgArguments& arguments) {
   char c = lexer.peek();
   if (c == '"') {
-    Value* const value = add_value(lexer, arguments, Value::Kind::kString);
-    return value && lexer.string(value->text);
+    return read_string(lexer, arguments, false);
   }
   bool negative = false;
   while (c == '-' || c == '+') {
@@ -92,11 +102,27 @@ bool read_scalar(CsgLexer& lexer, Constants& constants, Warnings& warnings,
       return false;
     }
     for (size_t i = first; negative && i < values.size(); ++i) {
-      values[i].number = -values[i].number;
+      if (values[i].kind == Value::Kind::kNumber) values[i].number = -values[i].number;
     }
     return true;
   }
   return expected_after_value(lexer, "a value");
+}
+
+/// Reads plain numbers of a vector, each with the mark behind it, as far as there are any. The last
+/// mark; 0 if there is none.
+char read_numbers(CsgLexer& lexer, CsgArguments& arguments) {
+  std::vector<Value>& values = arguments.values;
+  char last = '\0';
+  double number = 0;
+  while (values.size() < arguments.most_values) {
+    const char mark = lexer.plain_element(number);
+    if (mark == '\0') break;
+    values.push_back(number_value(number));
+    last = mark;
+    if (mark == ']') break;
+  }
+  return last;
 }
 
 }  // namespace
@@ -125,6 +151,7 @@ const Value* Constants::look_up(std::string_view name, SourceLocation where, War
     const std::optional<Value> known = built_in(name);
     found = table_.try_emplace(std::string(name)).first;
     found->second.value.push_back(known.value_or(kUndefined));
+    has_own_ |= !known;
     if (!known) {
       warnings.add("a name is not known; it is read as undef", where,
                    fmt::format("the name {} is not known; it is read as undef", quote(name)));
@@ -136,7 +163,8 @@ const Value* Constants::look_up(std::string_view name, SourceLocation where, War
 
 bool Constants::assign(std::string_view name, const Value& value) {
   Constant& constant = table_.try_emplace(std::string(name)).first->second;
-  if (value.extent <= kLargestConstant) {
+  has_own_ = true;
+  if (value.extent() <= kLargestConstant) {
     constant.value.assign(&value, value.end());
   } else {
     constant.value.assign(1, kUndefined);
@@ -150,30 +178,38 @@ bool read_value(CsgLexer& lexer, Constants& constants, Warnings& warnings,
   std::vector<uint32_t>& open = arguments.open;
   open.clear();
   for (;;) {
-    bool complete = true;
-    if (lexer.peek() == '[') {
+    // An element comes, or the end of a vector: OpenSCAD allows a comma after the last element.
+    bool closes = false;
+    const char c = lexer.peek();
+    if (c == '[') {
       open.push_back(static_cast<uint32_t>(values.size()));
       if (!add_value(lexer, arguments, Value::Kind::kVector)) return false;
       lexer.advance();
-      complete = lexer.peek() == ']';
-    } else if (!read_scalar(lexer, constants, warnings, arguments)) {
-      return false;
+      continue;
     }
-    while (complete) {
+    if (!open.empty()) {
+      const char mark = is_digit(c) || c == '-' ? read_numbers(lexer, arguments) : '\0';
+      if (mark == ',') continue;
+      closes = mark == ']';
+      if (!closes && c == ']') {
+        lexer.advance();
+        closes = true;
+      }
+    }
+    if (!closes) {
+      if (!read_scalar(lexer, constants, warnings, arguments)) return false;
       if (open.empty()) return true;
-      char c = lexer.peek();
-      if (c == ',') {
-        lexer.advance();
-        c = lexer.peek();
-        complete = c == ']';  // OpenSCAD allows a comma after the last element
-      }
-      if (c == ']') {
-        lexer.advance();
-        values[open.back()].extent = static_cast<uint32_t>(values.size()) - open.back();
+    }
+    for (;; closes = true) {
+      if (closes) {
+        values[open.back()].size = static_cast<uint32_t>(values.size()) - open.back() - 1;
         open.pop_back();
-      } else if (complete) {
-        return expected_after_value(lexer, "',' or ']'");
+        if (open.empty()) return true;
       }
+      const char mark = lexer.peek();
+      if (mark != ',' && mark != ']') return expected_after_value(lexer, "',' or ']'");
+      lexer.advance();
+      if (mark == ',') break;
     }
   }
 }
@@ -205,8 +241,7 @@ bool read_arguments(CsgLexer& lexer, Constants& constants, Warnings& warnings, b
     }
     if (!has_value) {
       if (is_text && name == "text" && lexer.peek() == '"') {
-        Value* const value = add_value(lexer, arguments, Value::Kind::kString);
-        if (!value || !lexer.dumped_text(value->text)) return false;
+        if (!read_string(lexer, arguments, true)) return false;
       } else if (!read_value(lexer, constants, warnings, arguments)) {
         return false;
       }

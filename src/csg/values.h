@@ -12,20 +12,27 @@
 
 namespace whittle {
 
-/// A constant. Vectors stand in preorder: the elements of the vector at `v` are `v + 1`, then each
-/// time `extent` further on, as long as they are below `v + v->extent`. So a value and all that is
-/// in it can be copied as it is.
+/// A constant. Vectors stand in preorder: the elements of a vector are from begin() on, each at the
+/// end() of the one before it, up to its own end(). So a value and all that is in it can be copied
+/// as it is. There are millions of them, so they are small.
 struct Value {
   enum class Kind : uint8_t { kUndef, kBool, kNumber, kString, kVector };
 
-  double number = 0;      ///< kNumber; kBool: 0 or 1
-  std::string_view text;  ///< kString: what stands between the quotes, escapes as written
-  uint32_t extent = 1;    ///< how many values this one is, itself and those in it
+  union {
+    double number = 0;       ///< kNumber; kBool: 0 or 1
+    const char* first_char;  ///< kString: what stands between the quotes, escapes as written
+  };
+  uint32_t size = 0;  ///< kString: its bytes; kVector: all values in it, those in vectors too
   Kind kind = Kind::kUndef;
 
+  std::string_view text() const { return {first_char, size}; }
+  /// How many values this one is, itself and those in it.
+  uint32_t extent() const { return kind == Kind::kVector ? size + 1 : 1; }
+
   const Value* begin() const { return this + 1; }
-  const Value* end() const { return this + extent; }
+  const Value* end() const { return this + extent(); }
 };
+static_assert(sizeof(Value) == 16);
 
 /// An argument as written.
 struct Argument {
@@ -58,12 +65,26 @@ class Constants {
   /// the last assignment of a name rules wherever the name is used) and that use has passed.
   bool assign(std::string_view name, const Value& value);
 
+  /// Whether the names that a piece of the text has used, which knew nothing of what came before
+  /// it, mean the same here.
+  bool agrees_with(const Constants& piece) const {
+    return piece.table_.empty() || (!has_own_ && !piece.has_own_);
+  }
+  /// Takes them over.
+  void append(const Constants& piece) { table_.insert(piece.table_.begin(), piece.table_.end()); }
+
+  void clear() {
+    table_.clear();
+    has_own_ = false;
+  }
+
  private:
   struct Constant {
     std::vector<Value> value;
     bool used = false;
   };
   std::map<std::string, Constant, std::less<>> table_;
+  bool has_own_ = false;  ///< names that are not OpenSCAD's
 };
 
 /// Records as a mistake that `what` was expected instead of what comes next, where a value may have

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/limit_hint.h"
+
 namespace whittle {
 
 std::string Budget::message() const {
@@ -9,13 +11,13 @@ std::string Budget::message() const {
   if (facets_ > most_) {
     return fmt::format(
         "with this shape the model has {} facets, more than the limit of {}; a smaller $fn gives "
-        "fewer, --curves smooth none, --limit facets=N raises it",
-        facets_, most_);
+        "fewer, smooth curves none{}",
+        facets_, most_, limit_hint("facets"));
   }
   return fmt::format(
       "flat shapes and hulls up to this one are computed from {} corners, more than the limit of "
-      "{}; --limit facets=N raises it",
-      work_, kWork * most_);
+      "{}{}",
+      work_, kWork * most_, limit_hint("facets"));
 }
 
 }  // namespace whittle

@@ -36,8 +36,7 @@ const std::string* Files::content(const std::string& file, SourceLocation where)
   Result<std::optional<std::string>> content = options_.read_file(file);
   if (!content) return refuse(content.error().message);
   if (!*content) {
-    warnings_.add("there is no file of this name; nothing is shown for it", where,
-                  fmt::format("there is no file {}; nothing is shown for it", printable(file)));
+    warnings_.add_missing_file(where, printable(file));
     flat_.erase(file);
     return nullptr;
   }

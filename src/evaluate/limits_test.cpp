@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/folder_for_test.h"
+#include "base/limit_hint.h"
 #include "evaluate/budget.h"
 #include "evaluate/evaluate_test_support.h"
 #include "host/named_files.h"
@@ -105,7 +106,7 @@ TEST_F(NamedFileTest, BytesAreLimitedTogether) {
       << "read once";
   const Read read = evaluated("import(\"a.off\");import(\"b.off\");", limited(2 * size - 1));
   ASSERT_EQ(read.warnings.size(), 1u);
-  EXPECT_NE(read.warnings[0].find("--limit bytes=N"), std::string::npos);
+  EXPECT_NE(read.warnings[0].find(limit_hint("bytes")), std::string::npos);
 }
 
 TEST(EvaluationLimits, FacetsAreCountedBeforeTheyAreMade) {
@@ -124,7 +125,7 @@ TEST(EvaluationLimits, FacetsAreCountedBeforeTheyAreMade) {
         "900); }"}) {
     const std::string message = evaluation_error(text, options);
     EXPECT_TRUE(message.starts_with("t.csg:1:")) << text << ": " << message;
-    EXPECT_NE(message.find("--limit facets=N raises it"), std::string::npos) << text;
+    EXPECT_NE(message.find(limit_hint("facets")), std::string::npos) << text;
   }
 }
 
@@ -165,8 +166,9 @@ TEST(EvaluationLimits, DepthTakesNoStack) {
   evaluated(nested("linear_extrude(1) ", "square(1);"));
   evaluated(nested("minkowski() { difference() { cube(2); cube(1); } ", "cube(1);") +
             std::string(kDeep, '}'));
-  EXPECT_NE(evaluation_error(nested("resize([2, 0, 0]) ", "cube(1);"), {}).find("--limit"),
-            std::string::npos);
+  EXPECT_NE(
+      evaluation_error(nested("resize([2, 0, 0]) ", "cube(1);"), {}).find(limit_hint("facets")),
+      std::string::npos);
   evaluated("linear_extrude(1) " + nested("translate([0.001, 0]) offset(0) ", "square(1);"));
 }
 

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
 #include <map>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/box.h"
 #include "base/xml_scanner.h"
 #include "flat/outlines.h"
 #include "flat/svg_pen.h"
@@ -328,7 +328,6 @@ class SvgReader {
 
   /// OpenSCAD's middle: the view box does not move it.
   Vec2 center() const {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Vec2 lo{kInfinity, kInfinity}, hi{-kInfinity, -kInfinity};
     for (const Shape& shape : shapes_)
       for (const Contour& contour : shape)

@@ -1,4 +1,4 @@
-// How long Clipper would take, before it is asked.
+// How long Clipper would take, estimated before it is called.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace whittle {
 /// crossings among many edges may go unseen. The same for the same contours.
 uint64_t estimate_sweep_work(std::span<const Contour> contours);
 
-/// Five seconds. No drawing comes near it.
+/// About five seconds. No real drawing comes near it.
 inline constexpr uint64_t kMostSweepWork = 250'000'000;
 
 /// What is said of a file that would take more.

@@ -24,7 +24,7 @@ class Buffer {
 
   VkBuffer handle() const { return buffer_.get(); }
   VkDeviceSize bytes() const { return bytes_; }
-  /// Where the host reaches it; null if it cannot. Coherent: nothing need be flushed.
+  /// Where the host can read and write it; null if it cannot. Coherent: nothing need be flushed.
   void* mapped() const { return mapped_; }
 
  private:

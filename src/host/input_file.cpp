@@ -1,4 +1,5 @@
 #include "host/input_file.h"
+#include "base/limit_hint.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -57,7 +58,7 @@ Result<std::string> read_text(const std::string& path, size_t most_bytes) {
   if (error != 0) return refuse("cannot be read: " + std::generic_category().message(error));
   if (text.size() > most_bytes) {
     return refuse(
-        fmt::format("larger than the limit of {} bytes; --limit bytes=N raises it", most_bytes));
+        fmt::format("larger than the limit of {} bytes{}", most_bytes, limit_hint("bytes")));
   }
   return text;
 }
@@ -78,9 +79,7 @@ Result<std::string> read_bytes(const std::string& path, size_t most_bytes) {
   if (!is_file) return refuse("it is not a file");
   if (error != 0) return refuse(std::generic_category().message(error));
   if (bytes.size() > most_bytes) {
-    return refuse(
-        fmt::format("with it more than the limit of bytes are read; --limit bytes=N "
-                    "raises it"));
+    return refuse("with it more than the limit of bytes are read" + limit_hint("bytes"));
   }
   return bytes;
 }

@@ -20,6 +20,9 @@ InputKind kind_of_input(std::string_view path);
 /// and what to do.
 std::optional<std::string> describe_foreign(std::string_view bytes);
 
+/// If these bytes are compressed, so that any file may be in them: likewise.
+std::optional<std::string> describe_compressed(std::string_view bytes);
+
 /// A string as it is written in .csg text, with its quotation marks.
 std::string quoted_string(std::string_view text);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/input_file.h"
+#include "host/input_kinds.h"
 
 namespace whittle {
 namespace {
@@ -43,6 +44,8 @@ NamedFiles named_files(std::string folder, std::optional<std::string> root, size
     Result<std::string> bytes = read_bytes(path.string(), *left);
     if (!bytes) return bytes.error();
     *left -= bytes->size();
+    if (std::optional<std::string> what = describe_compressed(*bytes))
+      return Error{ErrorKind::kInput, *std::move(what)};
     return std::optional(std::move(*bytes));
   };
 }

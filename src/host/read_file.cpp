@@ -7,12 +7,15 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <fstream>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "host/file_text.h"
 #include "host/input_file.h"
 #include "host/input_kinds.h"
 #include "host/named_files.h"
@@ -30,13 +33,15 @@ template <class Rewrite>
 Result<Read> rewrite(Result<Read> read, Rewrite&& in_other_words) {
   if (!read) return Error{read.error().kind, in_other_words(read.error().message)};
   for (std::string& warning : read->warnings) warning = in_other_words(warning);
-  if (!read->refusal.empty()) read->refusal = in_other_words(read->refusal);
+  for (std::string* message : {&read->refusal, &read->missing_file})
+    if (!message->empty()) *message = in_other_words(*message);
   return read;
 }
 
-/// Reads the text of a file, which may name others; `path` is what messages call it.
-Result<Read> read_text_of(const std::string& path, std::string_view text,
-                          const FileOptions& options) {
+/// Reads the text of a file (a string_view or a TextSource), which may name others; `path` is what
+/// messages call it.
+template <class Text>
+Result<Read> read_text_of(const std::string& path, Text&& text, const FileOptions& options) {
   const std::string folder = fs::path(path).parent_path().string();
   std::vector<std::string> files;
   ReadOptions reading = options.reading;
@@ -68,12 +73,23 @@ Result<Read> read_scad(const std::string& path, const FileOptions& options) {
   return read;
 }
 
+/// As many as tell what a file is.
+std::string first_bytes(const std::string& path) {
+  std::string bytes(16, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(bytes.data(), std::streamsize(bytes.size()));
+  bytes.resize(size_t(file.gcount()));
+  return bytes;
+}
+
 Result<Read> read_shape(const std::string& path, const FileOptions& options) {
   // That it is not there is an error here, while what import() misses is a warning.
   if (::access(path.c_str(), R_OK) != 0) {
     return Error{ErrorKind::kInput, fmt::format("{}: error: cannot be read: {}", path,
                                                 std::generic_category().message(errno))};
   }
+  if (const std::optional<std::string> compressed = describe_compressed(first_bytes(path)))
+    return Error{ErrorKind::kInput, fmt::format("{}: error: {}", path, *compressed)};
   const std::string name = fs::path(path).filename().string();
   Result<Read> read = read_text_of(path, fmt::format("import({});", quoted_string(name)), options);
   // The place is in a text that is not there, and so is the name of the file once more.
@@ -87,17 +103,35 @@ Result<Read> read_shape(const std::string& path, const FileOptions& options) {
   });
 }
 
+/// A file that is too large to be in memory before it is read; null if it is not, or what
+/// check_text() or describe_foreign() may have something to say of.
+std::unique_ptr<FileText> large_text(const std::string& path, size_t most_bytes) {
+  constexpr size_t kLarge = size_t{1} << 20, kHead = 1 << 12;
+  std::unique_ptr<FileText> text = path == "-" ? nullptr : FileText::open(path, most_bytes);
+  if (!text || text->place().size() < kLarge) return nullptr;
+  UninitializedVector<char> buffer;
+  const std::string_view head = text->read(0, kHead, buffer);
+  const bool is_plain = std::ranges::all_of(
+      head.substr(0, 4), [](char c) { return (c >= ' ' && c < 0x7f) || c == '\n' || c == '\t'; });
+  return is_plain && !describe_foreign(head) ? std::move(text) : nullptr;
+}
+
 Result<Read> read_plain(const std::string& path, const FileOptions& options) {
   const std::string name = path == "-" ? "<stdin>" : path;
-  const Result<std::string> text =
-      read_text(path, std::min(options.reading.limits.bytes, kMostTextBytes));
+  const size_t most_bytes = std::min(options.reading.limits.bytes, kMostTextBytes);
+  const auto with_file = [&](Result<Read> read) {
+    if (read && path != "-") read->files.insert(read->files.begin(), path);
+    return read;
+  };
+  if (const std::unique_ptr<FileText> large = large_text(path, most_bytes)) {
+    return with_file(read_text_of(path, *large, options));
+  }
+  const Result<std::string> text = read_text(path, most_bytes);
   if (!text) return text.error();
   if (const std::optional<std::string> foreign = describe_foreign(*text)) {
     return Error{ErrorKind::kInput, fmt::format("{}: error: {}", name, *foreign)};
   }
-  Result<Read> read = read_text_of(path, *text, options);
-  if (read && path != "-") read->files.insert(read->files.begin(), path);
-  return read;
+  return with_file(read_text_of(path, *text, options));
 }
 
 }  // namespace

@@ -63,14 +63,14 @@ Error not_found(const std::string& path, const FlattenOptions& options) {
   if (name == "openscad") {
     return failure(ErrorKind::kMachine, path,
                    "a .scad file is evaluated by openscad, which is not on PATH; install it "
-                   "(apt-get install openscad), name another one (--openscad PATH), or export the "
+                   "(apt-get install openscad), name another one in $OPENSCAD, or export the "
                    "model as .csg elsewhere");
   }
   const bool is_path = name.find('/') != std::string::npos;
   return failure(
       ErrorKind::kMachine, path,
       fmt::format("there is no program '{}'{} to evaluate it ({})", name, is_path ? "" : " on PATH",
-                  options.program.empty() ? "$OPENSCAD names it" : "--openscad names it"));
+                  options.program.empty() ? "$OPENSCAD names it" : "the options name it"));
 }
 
 /// The file's name as openscad is given it: openscad changes its folder to that of the source, so

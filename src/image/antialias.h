@@ -12,9 +12,9 @@
 
 namespace whittle {
 
-/// The pixels at edges, one byte each (1: edge): the id differs from one of the eight neighbours',
-/// or the normals stand more than 8 degrees apart, or neither pixel's tangent plane foretells the
-/// other's distance to within two pixels' width.
+/// The pixels at edges, one byte each (1: edge). A pixel is at an edge if one of its eight
+/// neighbours has another id, or a normal more than 8 degrees away, or a distance that neither
+/// pixel's tangent plane predicts to within two pixels' width.
 std::vector<uint8_t> edge_mask(const Frame& frame, const Camera& camera, const Workers& workers);
 
 /// shade(), but pixels at edges are the mean of n * n samples on a regular grid. Linear light is

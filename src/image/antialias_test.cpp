@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <functional>
+#include <utility>
+#include <vector>
 
 #include "image/srgb.h"
 #include "support/instruction_sets.h"
@@ -30,13 +32,13 @@ class FunctionTracer : public Tracer {
              std::span<Hit> hits) override {
     for (size_t i = 0; i < positions.size(); ++i) {
       hits[i] = shoot_(camera.ray(double(positions[i].x), double(positions[i].y)));
+      probed.push_back(positions[i]);
     }
-    probed += positions.size();
   }
   void cast(std::span<const Ray> rays, std::span<Hit> hits) override {
     std::ranges::transform(rays, hits.begin(), shoot_);
   }
-  size_t probed = 0;
+  std::vector<PixelPosition> probed;
 
  private:
   std::function<Hit(const Ray&)> shoot_;
@@ -96,7 +98,29 @@ TEST(Antialias, OnlyPixelsBesideTheEdgeAreTracedAgain) {
   const Frame frame = tracer.render(camera, {});
   shade_antialiased(tracer, camera, frame, {}, {}, 3, kWorkers);
   // The border between pixel columns 9 and 10, or 10 and 11: two columns of ten rows.
-  EXPECT_EQ(tracer.probed, size_t(2 * 10 * 9));
+  EXPECT_EQ(tracer.probed.size(), size_t(2 * 10 * 9));
+}
+
+TEST(Antialias, EveryEdgePixelIsTracedOnceHoweverLargeThePicture) {
+  // A disc, so that edges are everywhere; sizes that blocks of pixels divide, and others.
+  const double radius = 8;
+  FunctionTracer tracer([&](const Ray& ray) -> Hit {
+    const double t = -ray.origin.z / ray.direction.z;
+    const double x = ray.origin.x + t * ray.direction.x, y = ray.origin.y + t * ray.direction.y;
+    return x * x + y * y > radius * radius ? Hit{} : Hit{float(t), 1, {0, 0, 1}};
+  });
+  for (const auto& [width, height] : {std::pair{20, 16}, {19, 17}, {18, 15}, {1, 9}, {21, 1}}) {
+    const Camera camera = top_camera(width, height);
+    const Frame frame = tracer.render(camera, {});
+    const std::vector<uint8_t> mask = edge_mask(frame, camera, kWorkers);
+    tracer.probed.clear();
+    shade_antialiased(tracer, camera, frame, {}, {}, 2, kWorkers);
+    std::vector<int> samples(mask.size());
+    for (const PixelPosition& p : tracer.probed)
+      ++samples[size_t(p.y) * size_t(width) + size_t(p.x)];
+    for (size_t i = 0; i < mask.size(); ++i)
+      EXPECT_EQ(samples[i], 4 * mask[i]) << i << " of " << width << " x " << height;
+  }
 }
 
 TEST(Antialias, OneSampleIsPlainShading) {
@@ -105,7 +129,7 @@ TEST(Antialias, OneSampleIsPlainShading) {
   const Frame frame = tracer.render(camera, {});
   EXPECT_EQ(shade_antialiased(tracer, camera, frame, {}, {}, 1, kWorkers).rgba,
             shade(frame, camera, {}, {}, kWorkers).rgba);
-  EXPECT_EQ(tracer.probed, 0u);
+  EXPECT_EQ(tracer.probed.size(), 0u);
 }
 
 TEST(Antialias, StudioAveragesLightAndTheOthersDisplayValues) {

@@ -1,8 +1,8 @@
 // OpenSCAD's colour schemes: background, material, cut surfaces.
 //
-// The values are those of OpenSCAD's ColorMap.cc and color-schemes/render (csg facts,
-// re-described): of evaluated solids, as --render shows them. Some schemes paint a body that
-// nothing was done to, and all of the preview, in another colour.
+// The values are those of OpenSCAD's ColorMap.cc and color-schemes/render, those of
+// evaluated solids, as --render shows them. Some schemes have another colour for a primitive that
+// no operation has touched, and for all of the preview.
 #pragma once
 
 #include <span>

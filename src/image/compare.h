@@ -1,5 +1,5 @@
-// THE comparison of two frames: the program's `compare` and every test that holds one backend to
-// another use this one, so that they mean the same by "equal".
+// The one comparison of two frames. The program's `compare` and every test that holds one backend
+// to another use it, so that all mean the same by "equal".
 #pragma once
 
 #include <cstdint>

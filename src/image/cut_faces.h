@@ -1,9 +1,10 @@
 // Which surfaces OpenSCAD paints as cut where faces of material and of cutters coincide.
 //
-// Its evaluated solids are sets of points: a primitive holds its surface, and what is subtracted
-// takes its surface along. A face is painted as material if the solid holds it, and as cut if not.
-// Away from coincident faces that is the sign with which the primitive stands in the formula; where
-// a face of material lies on a face of a cutter it is not, whoever owns the point.
+// OpenSCAD's evaluated solids are closed sets of points: a primitive contains its surface, and
+// subtracting it removes its surface, too. A face is painted as material if the solid contains it,
+// and as cut if not. Away from coincident faces the sign of the primitive in the formula decides.
+// Where a face of material lies on a face of a cutter that sign does not decide, whoever owns the
+// point.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +40,7 @@ class CutFaces {
 
   const Scene& scene_;
   NearFormula formula_;
-  double margin_;                ///< surfaces and boxes may be off by so much
+  double margin_;                ///< the most that surfaces and boxes may be wrong by
   std::vector<Units> units_of_;  ///< by id, if it is contested
 };
 

@@ -20,16 +20,7 @@ constexpr Vec3f kFaceBrightness{0.82f, 0.66f, 1.0f};
 constexpr float kEdgeOfFaceBrightness = 0.45f;
 
 bool is_drawn(CellKind kind) {
-  switch (kind) {
-    case CellKind::kIgnored:
-    case CellKind::kConjunction:
-    case CellKind::kDisjunction:
-    case CellKind::kTable:
-    case CellKind::kProgram:
-      return true;
-    default:
-      return false;
-  }
+  return is_leaf(kind) || kind == CellKind::kIgnored;
 }
 
 /// Calls visit(box in the world, kind).

@@ -1,8 +1,8 @@
 // The outlines of a drawing as OpenSCAD's --render draws them: two pixels wide.
 //
 // Based on: the rasterisation of wide lines without antialiasing, OpenGL 2.1 specification, section
-// 3.4: a line is drawn in columns if it is nearer to lying than to standing, else in rows; in each
-// it covers as many pixels as it is wide.
+// 3.4. A line that is more horizontal than vertical is drawn in columns, any other in rows; in each
+// column or row it covers as many pixels as it is wide.
 #pragma once
 
 #include "image/picture.h"

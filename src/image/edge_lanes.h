@@ -12,8 +12,8 @@
 
 namespace whittle {
 
-/// What the pixels of a row ask of their neighbours, an array a number. Pixel x stands at kBefore +
-/// x; there is room for lanes on either side.
+/// The numbers of a row's pixels that are compared with their neighbours', one array a number.
+/// Pixel x stands at kBefore + x; there is room for lanes on either side.
 class EdgeRow {
  public:
   static constexpr size_t kBefore = 1;

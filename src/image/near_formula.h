@@ -1,8 +1,8 @@
-// A formula of units that is asked at points: what is far from a point is passed over.
+// A formula of units that is evaluated at points, without looking at what is far from the point.
 //
-// Outside of its box a unit is one value, whatever the point; so is a group, and so is a row of a
-// group's operands, outside of a box that follows from theirs. Those boxes stand beside the formula
-// as a tree, rows of eight operands at a time, for a group may have thousands.
+// Outside of its box a unit has a constant value. So has a group, and so has a row of a group's
+// operands, outside of a box that follows from theirs. These boxes form a tree beside the formula.
+// Rows hold eight operands, since a group may have thousands.
 #pragma once
 
 #include <cstdint>

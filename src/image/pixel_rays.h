@@ -1,4 +1,4 @@
-// The camera's rays in single precision, relative to the eye: all that colours need.
+// The camera's rays in single precision, relative to the eye. Colours need no more.
 #pragma once
 
 #include <cstddef>

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "base/folder_for_test.h"
 
@@ -20,24 +21,29 @@ Picture random_picture(int width, int height, uint32_t seed) {
   return picture;
 }
 
+void write_all(const std::string& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
 RC_GTEST_PROP(Png, WhatIsWrittenIsReadBack, ()) {
   const Picture p = random_picture(*rc::gen::inRange(1, 40), *rc::gen::inRange(1, 40),
                                    *rc::gen::arbitrary<uint32_t>());
   const TestFolder folder;
   const std::string file_name = folder / "x.png";
   const std::string& path = file_name;
-  RC_ASSERT(bool(write_png(path, p, true)));
+  write_all(path, encode_png(p, true));
   const Result<Picture> read = read_png(path);
   RC_ASSERT(bool(read));
   RC_ASSERT(read->width == p.width && read->height == p.height && read->rgba == p.rgba);
 }
 
+// Of more than one stripe.
 TEST(Png, WithoutAlphaTheColorsStay) {
-  const Picture p = random_picture(31, 17, 5);
+  const Picture p = random_picture(301, 317, 5);
   const TestFolder folder;
   const std::string file_name = folder / "x.png";
   const std::string& path = file_name;
-  ASSERT_TRUE(write_png(path, p, false));
+  write_all(path, encode_png(p, false));
   const Result<Picture> read = read_png(path);
   ASSERT_TRUE(read);
   for (size_t i = 0; i < p.rgba.size(); ++i) {
@@ -45,38 +51,21 @@ TEST(Png, WithoutAlphaTheColorsStay) {
   }
 }
 
-TEST(Png, WritesToAnOpenFileAfterWhatIsThere) {
-  const TestFolder folder;
-  const std::string file_name = folder / "x.png";
-  const std::string& path = file_name;
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  ASSERT_NE(file, nullptr);
-  std::fputs("before", file);
-  EXPECT_TRUE(write_png(file, "appended", random_picture(3, 3, 1), true));
-  EXPECT_EQ(std::fputs("after", file) >= 0, true);
-  std::fclose(file);
-  std::ifstream in(path, std::ios::binary);
-  const std::string all((std::istreambuf_iterator<char>(in)), {});
-  EXPECT_EQ(all.substr(0, 6), "before");
-  EXPECT_EQ(all.substr(7, 3), "PNG");
-  EXPECT_EQ(all.substr(all.size() - 5), "after");
-}
-
-TEST(Png, AFullDiskIsAnErrorThatNamesTheFile) {
-  const Picture p = random_picture(300, 300, 1);
-  for (const char* path : {"/dev/full", "/no/such/folder/a.png"}) {
-    const Status written = write_png(path, p, true);
-    ASSERT_FALSE(written) << path;
-    EXPECT_EQ(written.error().kind, ErrorKind::kMachine);
-    EXPECT_EQ(written.error().message.find(path), 0u) << written.error().message;
+TEST(Png, ThreadsMakeTheSameBytes) {
+  const Workers workers(3);
+  for (const auto& [width, height] : {std::pair(1, 1), std::pair(700, 500), std::pair(50000, 5)}) {
+    const Picture p = random_picture(width, height, 9);
+    for (const bool with_alpha : {false, true})
+      EXPECT_EQ(encode_png(p, with_alpha), encode_png(p, with_alpha, &workers));
   }
 }
 
-TEST(Png, AnErrorThatComesWithTheLastBytesIsSeen) {
-  std::FILE* file = std::fopen("/dev/full", "wb");
-  ASSERT_NE(file, nullptr);
-  EXPECT_FALSE(write_png(file, "full", random_picture(2, 2, 1), true));
-  std::fclose(file);
+TEST(Png, SmoothPicturesAreSmall) {
+  Picture p(1000, 1000);
+  for (int y = 0; y < p.height; ++y)
+    for (int x = 0; x < p.width; ++x)
+      p.at(x, y)[0] = uint8_t(x / 4), p.at(x, y)[1] = uint8_t(y / 4);
+  EXPECT_LT(encode_png(p, true).size(), p.rgba.size() / 100);
 }
 
 TEST(Png, WhatIsNoPngIsAnError) {
@@ -86,7 +75,7 @@ TEST(Png, WhatIsNoPngIsAnError) {
   EXPECT_FALSE(read_png("/no/such/file.png"));
   std::ofstream(path) << "hello";
   EXPECT_FALSE(read_png(path));
-  ASSERT_TRUE(write_png(path, random_picture(40, 40, 2), true));
+  write_all(path, encode_png(random_picture(40, 40, 2), true));
   std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
   const Result<Picture> read = read_png(path);
   ASSERT_FALSE(read);

@@ -1,4 +1,4 @@
-// Where a line between two points of the world stands in a picture.
+// Where a line between two points of the world appears in a picture.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ struct ProjectedLine {
   Vec3 from, to;
 };
 
-/// Without what leaves the picture by more than a few pixels; none if nothing is left.
+/// The line, clipped to the picture and a few pixels around it; none if nothing is left.
 std::optional<ProjectedLine> project_line(const Camera& camera, Vec3 from, Vec3 to);
 
 }  // namespace whittle

@@ -34,9 +34,10 @@ struct ShadeParameters {
   uint32_t last = 0;             ///< that of ids beyond
 };
 
-/// Hits, and which of the materials each has if it is not its id that tells (0 is background), and
-/// which lights do not reach it if any does not, a bit each (kStudio: 1 key, 2 fill, 4 rim; kBlinn:
-/// 1). Behind the last look and shadow are zeros, so that lanes can be loaded past the end.
+/// Hits. `looks`: the material of each, where the id alone does not tell it (0 is background).
+/// `shadows`: the lights that do not reach each, a bit a light (kStudio: 1 key, 2 fill, 4 rim;
+/// kBlinn: 1). Both are empty if they are not needed. Behind the last look and shadow are zeros, so
+/// that lanes can be loaded past the end.
 struct SeenHits {
   std::span<const Hit> hits;
   std::vector<uint32_t> looks, shadows;  ///< or empty

@@ -1,4 +1,4 @@
-// What defines the looks there are to others.
+// The constants that define the styles, for those who reproduce them elsewhere.
 #pragma once
 
 #include "whittle/options.h"

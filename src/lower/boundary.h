@@ -10,6 +10,7 @@
 
 #include "base/affine.h"
 #include "base/box.h"
+#include "base/workers.h"
 #include "lower/clip_polygon.h"
 #include "shape/triangle_mesh.h"
 
@@ -32,12 +33,14 @@ class Boundary {
   /// In the region that is looked at, triangles are no farther than this from the planes of their
   /// faces.
   double slack() const { return slack_; }
-  /// What no distance can be told from.
+  /// No distance below this can be told from zero.
   double rounding() const { return rounding_; }
-  /// Measures the slack anew: `distance(face, point)` from the plane of a face; no less than
-  /// `rounding`. Two planes that are one in the region may part far beyond it.
+  /// Measures the slack again. `distance(face, point)` is that of a point from the plane of a face.
+  /// The slack is at least `rounding`. (Two planes that are one in the region may part far beyond
+  /// it.)
   template <class Distance>
-  void measure_slack(double rounding, const Box& region, const Distance& distance);
+  void measure_slack(double rounding, const Box& region, const Workers* workers,
+                     const Distance& distance);
 
   /// Calls visit(index into triangles()) for the triangles that reach a box, until it returns
   /// false. The test is exact but for rounding: the box should be a little larger than what
@@ -73,6 +76,10 @@ class Boundary {
   static constexpr uint32_t kLeafTriangles = 4;
   static constexpr size_t kMostDepth = 96;
 
+  /// Of some triangles.
+  template <class Distance>
+  double slack_of(std::span<const Triangle> triangles, double rounding, const Box& region,
+                  const Distance& distance) const;
   void build();
   /// Calls visit(index) for the triangles of all leaves, but for what lies under a node with
   /// is_beside(node), until it returns false.
@@ -83,23 +90,41 @@ class Boundary {
 
   std::vector<Vec3> points_;
   std::vector<Triangle> triangles_;  ///< in the order of the leaves
-  std::vector<Column> columns_;      ///< by triangle: most are told apart by them alone
+  std::vector<Column> columns_;      ///< by triangle: for most the column alone decides
   std::vector<Node> nodes_;          ///< the root first
   double slack_ = 0, rounding_ = 0;
 };
 
 template <class Distance>
-void Boundary::measure_slack(double rounding, const Box& region, const Distance& distance) {
-  slack_ = rounding_ = rounding;
+void Boundary::measure_slack(double rounding, const Box& region, const Workers* workers,
+                             const Distance& distance) {
+  constexpr size_t kEach = size_t(1) << 13;
+  std::vector<double> slacks((triangles_.size() + kEach - 1) / kEach, rounding);
+  for_parts(workers, slacks.size(), 1, [&](size_t first, size_t last, size_t) {
+    for (size_t part = first; part < last; ++part) {
+      const size_t begin = part * kEach;
+      slacks[part] = slack_of(
+          std::span(triangles_).subspan(begin).first(std::min(kEach, triangles_.size() - begin)),
+          rounding, region, distance);
+    }
+  });
+  rounding_ = rounding;
+  slack_ = *std::max_element(slacks.begin(), slacks.end());
+}
+
+template <class Distance>
+double Boundary::slack_of(std::span<const Triangle> triangles, double rounding, const Box& region,
+                          const Distance& distance) const {
+  double slack = rounding;
   std::vector<Vec3> cut;
-  for (const Triangle& triangle : triangles_) {
+  for (const Triangle& triangle : triangles) {
     double off = 0;
     bool is_within = true;
     for (const uint32_t corner : triangle.corners) {
       off = std::max(off, distance(triangle.face, points_[corner]));
       is_within = is_within && region.contains(points_[corner]);
     }
-    if (!(2 * off > slack_)) continue;
+    if (!(2 * off > slack)) continue;
     if (!is_within) {
       off = 0;
       cut.clear();
@@ -108,8 +133,9 @@ void Boundary::measure_slack(double rounding, const Box& region, const Distance&
       clip_to_box(cut, region.size() / 2);
       for (const Vec3& p : cut) off = std::max(off, distance(triangle.face, p + region.center()));
     }
-    slack_ = std::max(slack_, 2 * off);
+    slack = std::max(slack, 2 * off);
   }
+  return slack;
 }
 
 template <class IsBeside, class Visit>

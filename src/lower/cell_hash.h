@@ -11,7 +11,7 @@ namespace whittle {
 template <size_t N>
 using CellPlace = std::array<int64_t, N>;
 
-/// The cell of a coordinate. What is beyond all numbers of use is in the last cell; so is a NaN.
+/// The cell of a coordinate. The last cell takes all coordinates that are too large, and NaN.
 inline int64_t cell_coordinate(double x) {
   constexpr double kFar = 1e15;
   return x > -kFar ? x < kFar ? int64_t(std::floor(x)) : int64_t(kFar) : -int64_t(kFar);

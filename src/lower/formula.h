@@ -24,10 +24,11 @@ enum class TokenKind : uint32_t {
   kOr,    ///< header of a disjunction
 };
 
-/// One token: kind (2 bits), negated (1 bit), payload (29 bits). A negated kAnd or kOr is a pass,
-/// not a group of its own: its operands, one at least, belong to the group around it (what is left
-/// of a group that lost all but one operand, or came to stand in one of its own kind). Whoever
-/// reads with what is below meets no pass.
+/// One token: kind (2 bits), negated (1 bit), payload (29 bits).
+///
+/// A negated kAnd or kOr is a pass: the header of what used to be a group. A group becomes a pass
+/// when it has lost all but one operand, or comes to stand in a group of its own kind. The operands
+/// behind a pass, at least one, belong to the group around it. The readers below skip passes.
 struct Token {
   uint32_t bits;
 

@@ -1,9 +1,10 @@
-// Numbers half-spaces, giving equal and complementary ones the same number: this is how coincident
-// faces are solved, by naming instead of by epsilon at ray time.
+// Numbers half-spaces. Equal and complementary ones get the same number: coincident faces are
+// recognised once, by name, and not by an epsilon at every ray.
 //
 // Equal means: within the tolerance of the half-space that was numbered first, everywhere the
-// primitive at hand reaches (docs/conventions.md, Coincidence). Later ones are compared with those
-// that have a number only, which never move, so a row of nearly equal planes cannot chain into one.
+// primitive at hand reaches (docs/conventions.md, Coincidence). A new half-space is compared only
+// with those that have a number. These never move, so a row of nearly equal planes cannot chain
+// into one.
 #pragma once
 
 #include <array>
@@ -11,22 +12,11 @@
 #include <span>
 #include <vector>
 
-#include "lower/plane_sieve.h"
+#include "lower/fingerprint.h"
 #include "lower/point_index.h"
 #include "lower/scene.h"
 
 namespace whittle {
-
-/// What of a primitive decides which surfaces its own are one with. Local coordinates.
-struct Reach {
-  Vec3 center;  ///< the primitive lies in this ball
-  double radius = 0;
-  double width = 0;       ///< see Extent
-  double tolerance = 0;   ///< see own_tolerance()
-  double ball_reach = 0;  ///< of the outline of a sphere's image from its middle; 0 for the rest
-
-  bool operator==(const Reach&) const = default;
-};
 
 /// Points that stand for a curved surface, some at a time: calls the test with them until it fails.
 /// True if it never does.
@@ -49,30 +39,25 @@ class HalfSpaceTable {
   /// added with it.
   bool is_crowded(uint32_t number) const { return crowded_[number]; }
 
-  std::vector<HalfSpace> take() { return std::move(half_spaces_); }
+  const HalfSpace& operator[](uint32_t number) const { return half_spaces_[number]; }
+  size_t size() const { return half_spaces_.size(); }
 
  private:
   bool same_plane(uint32_t known, const HalfSpace& h, const Reach& reach, bool complement) const;
   bool same_curve(uint32_t known, const Reach& reach, const Outline& outline) const;
 
-  /// Where the surface stands in a space in which equal ones are neighbours.
-  struct Fingerprint {
-    PointIndex::Point point;
-    double slack;  ///< how far an equal surface's can be; in proportion to the tolerance
-  };
-  Fingerprint wall_fingerprint(const HalfSpace& h, const Reach& reach) const;
-  Fingerprint ball_fingerprint(const HalfSpace& h, const Reach& reach) const;
-  Fingerprint fingerprint(const HalfSpace& h, const Reach& reach) const;
+  /// In the units of the indices.
+  Fingerprint place_of(const HalfSpace& h, const Reach& reach) const;
 
-  /// Those that had no other near them when they were added, which are few in any place, and the
-  /// rest.
+  /// Half-spaces in two indices. One is lonely if no other was near it when it was added; any place
+  /// has few of these. All others are crowded.
   struct Shelves {
     PointIndex lonely, crowded;
     PointIndex& of(bool is_crowded) { return is_crowded ? crowded : lonely; }
   };
 
-  /// Calls visit(literal) for those on the shelf that may be equal over the reach, or whose
-  /// complements may, until it returns false.
+  /// Calls visit(literal) for the half-spaces on the shelf that may be equal over the reach, and
+  /// for those whose complements may be. Stops when it returns false.
   template <class Visit>
   void visit_near(PointIndex Shelves::*shelf, const HalfSpace& h, const Reach& reach,
                   const Fingerprint& at, const Visit& visit) const;
@@ -80,12 +65,6 @@ class HalfSpaceTable {
   void visit_planes(PointIndex Shelves::*shelf, const HalfSpace& h, const Reach& reach,
                     bool complement, const Visit& visit) const;
   void put(const HalfSpace& h, uint32_t number, bool is_ball, const Fingerprint& at);
-  void put_plane(uint32_t number);
-  bool stands_alone(const HalfSpace& h, const Reach& reach);
-  PlaneSieve* sieve_for(double offset_slack, double normal_slack);
-  void add_to_sieves(uint32_t number);
-  PlanePlace place_of(const HalfSpace& h) const;
-  uint32_t add_new(const HalfSpace& h, double tolerance);
   uint32_t group_of(Vec3 normal);
   /// Calls visit(group) for all whose normal is within `parting` of n in every coordinate, until it
   /// returns false.
@@ -101,19 +80,15 @@ class HalfSpaceTable {
 
   std::vector<Literal> near_;  ///< while one is added
   Shelves balls_, walls_;      ///< by fingerprint
-  /// Planes in groups that have one normal but for rounding, and by group and distance from the
-  /// origin.
+  /// Planes are found by group and distance from the origin. A group has one normal, but for
+  /// rounding; these are the groups' normals.
   std::vector<Vec3> normals_;
-  /// In cells of several sizes, so that who asks for very near ones does not meet all that are
-  /// near; in the coarsest alone as long as there are few.
+  /// The groups by normal, in hash cells of several sizes, so that a search in a small
+  /// neighbourhood does not meet all of a large one. As long as there are few groups, only the
+  /// coarsest is filled.
   static constexpr std::array<double, 3> kNormalCellsPerUnit = {1 << 6, 1 << 10, 1 << 16};
   std::array<PointIndex, kNormalCellsPerUnit.size()> groups_;
   Shelves planes_;
-  /// All planes are in all sieves that there are so far. What has been taken from one of them, or
-  /// is not held by it, is in the indices above.
-  std::vector<PlaneSieve> sieves_;
-  std::vector<bool> is_put_;  ///< one a half-space
-  bool puts_all_ = false;     ///< planes have come for which every sieve is too fine
 };
 
 }  // namespace whittle

@@ -162,7 +162,7 @@ TEST(HalfSpaceTable, FindsTheCurvesThatLookingAtAllFinds) {
       surfaces.push_back({lowered.half_spaces.front(),
                           {e.center, e.radius, e.width, own_tolerance(kTolerance, e, 0),
                            lowered.is_ball ? lowered.extent.radius : 0},
-                          lowered.outline});
+                          wall_outline(shape, moved)});
     }
   }
   const size_t merged = check_all(surfaces);

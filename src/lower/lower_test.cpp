@@ -1,7 +1,9 @@
 #include "lower/lower.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <random>
 #include <string>
 
@@ -20,6 +22,102 @@ Scene lowered(const std::string& text) {
 
 bool inside(const Scene& scene, Vec3 world) {
   return contains(scene, scene.formula, world - scene.origin);
+}
+
+/// Boxes side by side, on and almost on one another, walls, balls and meshes, nested at random.
+std::string crowded_text(std::mt19937_64& random, int primitives) {
+  const auto pick = [&](int n) { return int(random() % uint64_t(n)); };
+  // Whole numbers, and what differs from them by about the tolerance, or a 1500th of it.
+  const auto number = [&] {
+    const double off[] = {0, 0, 0, 2e-8, 1e-5, 3e-5, 6e-5};
+    return fmt::format("{}", pick(9) + off[pick(7)] * (pick(3) - 1));
+  };
+  const auto place = [&] {
+    return fmt::format("translate([{}, {}, {}]) ", number(), number(), number());
+  };
+  std::string text;
+  int open = 0;
+  for (int i = 0; i < primitives; ++i) {
+    if (pick(8) == 0) {
+      const char* const groups[] = {"union() {",  "difference() {",        "intersection() {",
+                                    "%group() {", "color([1, 0, 0, 1]) {", "rotate([0, 0, 90]) {"};
+      text += groups[pick(6)];
+      ++open;
+    }
+    text += place();
+    switch (pick(6)) {
+      case 0:
+        text += "sphere(r = 1, $fn = 0);";
+        break;
+      case 1:
+        text += fmt::format("cylinder(h = {}, r1 = 1, r2 = {});", 1 + pick(3), pick(3));
+        break;
+      case 2:
+        text += "sphere(r = 1, $fn = 8);";
+        break;
+      case 3:
+        text += "linear_extrude(1) polygon([[0, 0], [2, 0], [2, 2], [1, 1], [0, 2]]);";
+        break;
+      case 4:
+        text += "sphere(r = 0);";
+        break;
+      default:
+        text += fmt::format("cube([{}, 1, 1]);", 1 + pick(2));
+    }
+    if (open > 0 && pick(6) == 0) text += '}', --open;
+    text += '\n';
+  }
+  return text + std::string(size_t(open), '}');
+}
+
+template <class Row>
+bool same_bytes(const Row& a, const Row& b) {
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](auto& x, auto& y) {
+           return std::memcmp(&x, &y, sizeof x) == 0;
+         });
+}
+
+void expect_same(const Scene& a, const Scene& b) {
+  ASSERT_EQ(a.half_spaces.size(), b.half_spaces.size());
+  for (size_t i = 0; i < a.half_spaces.size(); ++i) {
+    const HalfSpace &x = a.half_spaces[i], &y = b.half_spaces[i];
+    ASSERT_TRUE(x.center == y.center && x.f.diag == y.f.diag && x.f.off == y.f.off &&
+                x.f.b == y.f.b && x.f.c == y.f.c && x.kind == y.kind && x.tip == y.tip)
+        << i;
+  }
+  EXPECT_EQ(a.tips, b.tips);
+  EXPECT_TRUE(same_bytes(a.faces, b.faces));
+  ASSERT_EQ(a.units.size(), b.units.size());
+  for (size_t i = 0; i < a.units.size(); ++i) {
+    const Unit &x = a.units[i], &y = b.units[i];
+    ASSERT_TRUE(x.id == y.id && x.first_face == y.first_face && x.face_count == y.face_count &&
+                x.outer == y.outer && x.inner_center == y.inner_center &&
+                x.inner_radius == y.inner_radius && x.first_box == y.first_box &&
+                x.box_frame == y.box_frame && x.boundary == y.boundary && x.inward == y.inward)
+        << i;
+  }
+  EXPECT_TRUE(same_bytes(a.face_boxes, b.face_boxes));
+  EXPECT_EQ(a.box_frames, b.box_frames);
+  ASSERT_EQ(a.boundaries.size(), b.boundaries.size());
+  for (size_t i = 0; i < a.boundaries.size(); ++i) {
+    EXPECT_EQ(a.boundaries[i].slack(), b.boundaries[i].slack());
+    EXPECT_TRUE(same_bytes(a.boundaries[i].triangles(), b.boundaries[i].triangles()));
+  }
+  EXPECT_EQ(a.formula, b.formula);
+}
+
+TEST(Lower, AnyNumberOfThreadsMakesTheSame) {
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 3; ++i) {
+    const Model model = model_of(crowded_text(random, 6000));
+    const Scene alone = *lower(model);
+    // Far fewer half-spaces than faces: these scenes are crowded.
+    EXPECT_LT(3 * alone.half_spaces.size(), 2 * alone.faces.size());
+    for (const int threads : {2, 5}) {
+      const Workers workers(threads);
+      expect_same(*lower(model, &workers), alone);
+    }
+  }
 }
 
 TEST(Lower, SlackOfABoundaryIsThatOfWhatIsLookedAt) {
@@ -93,7 +191,7 @@ TEST(HalfSpaceTable, NearlyEqualPlanesDoNotChain) {
     table.add({{0, 0, i * 0.75 * tolerance}, {{}, {}, {0, 0, 0.5}, 0}, SurfaceKind::kPlane}, reach,
               {});
   // Each representative takes in the next one and no more.
-  EXPECT_EQ(table.take().size(), 50u);
+  EXPECT_EQ(table.size(), 50u);
 }
 
 TEST(HalfSpaceTable, FindsEqualsAcrossBucketBorders) {

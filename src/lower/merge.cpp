@@ -36,38 +36,30 @@ Literal FaceMerger::add(const HalfSpace& face, const Reach& primitive, const Out
   return literal;
 }
 
-FaceMerger::Merged FaceMerger::merge(const Outlines& outlines) {
+FaceMerger::Merged FaceMerger::merge(const Outlines& outlines) const {
   Merged merged;
-  merged.half_spaces = table_.take();
   merged.literals.reserve(written_.size());
   merged.moved.assign(written_.size(), 0);
-  // Only those that may lie on others are looked at; the rest keep their order among them.
+  // Only those that may lie on others are looked at.
   HalfSpaceTable table(max_component(region_.size()) / 2, tolerance_);
-  std::vector<uint32_t> number_of;  // of those in the table
-  uint32_t count = 0;
+  std::vector<uint32_t> written_as;  // of those in the table
   for (uint32_t i = 0; i < written_.size(); ++i) {
-    const HalfSpace& half_space = merged.half_spaces[i];
-    uint32_t number = count;
-    Literal side = 0;
-    if (table_.is_crowded(i)) {
-      Reach all = reaches_[written_[i].reach];
-      const Extent extent =
-          written_[i].extent == kOne ? extent_of(all) : extents_[written_[i].extent];
-      all.tolerance = joint_tolerance(all.tolerance, extent.width, together_);
-      if (half_space.is_plane()) {
-        all.center = extent.center;
-        all.radius = extent.radius;
-      }
-      const Literal literal = table.add(half_space, all, outlines(i));
-      if (literal >> 1 == number_of.size()) number_of.push_back(count);
-      number = number_of[literal >> 1];
-      side = literal & 1;
-      if (number != count) merged.moved[i] = float(all.tolerance);
+    merged.literals.push_back(2 * i);
+    if (!table_.is_crowded(i)) continue;
+    const HalfSpace& half_space = table_[i];
+    Reach all = reaches_[written_[i].reach];
+    const Extent extent =
+        written_[i].extent == kOne ? extent_of(all) : extents_[written_[i].extent];
+    all.tolerance = joint_tolerance(all.tolerance, extent.width, together_);
+    if (half_space.is_plane()) {
+      all.center = extent.center;
+      all.radius = extent.radius;
     }
-    if (number == count) merged.half_spaces[count++] = half_space;
-    merged.literals.push_back(Literal(number) * 2 + side);
+    const Literal literal = table.add(half_space, all, outlines(i));
+    if (literal >> 1 == written_as.size()) written_as.push_back(i);
+    merged.literals[i] = 2 * written_as[literal >> 1] + (literal & 1);
+    if (written_as[literal >> 1] != i) merged.moved[i] = float(all.tolerance);
   }
-  merged.half_spaces.resize(count);
   return merged;
 }
 

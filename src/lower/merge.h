@@ -1,8 +1,8 @@
 // Moves faces onto earlier ones that they lie on, in two steps (docs/conventions.md, Coincidence).
 //
-// First, faces that were written to be the same become one surface. Then these surfaces, in file
-// order, lie on an earlier one or are new. So what is equal moves together, and nothing opens or
-// closes between faces because one of them lies on a third.
+// First, faces that were written to be the same become one surface. Then, in file order, each of
+// these surfaces either lies on an earlier one or is new. So equal faces move as one: no gap opens
+// or closes between two of them because one lies on a third.
 #pragma once
 
 #include <functional>
@@ -19,21 +19,20 @@ namespace whittle {
 class FaceMerger {
  public:
   /// `region`: local coordinates. Lengths: the model's tolerance, and what rounding cannot tell
-  /// apart (together()).
+  /// apart (ray_tolerance()).
   FaceMerger(const Box& region, double tolerance, double together);
 
   /// A face of a primitive. Returns a literal of its surface as it was written.
   Literal add(const HalfSpace& face, const Reach& primitive, const Outline& outline);
 
+  /// For every surface as it was written:
   struct Merged {
-    std::vector<HalfSpace> half_spaces;
-    std::vector<Literal> literals;  ///< for every surface as it was written: what it is now,
+    std::vector<Literal> literals;  ///< what it lies on now, itself or an earlier one,
     std::vector<float> moved;       ///< and by how much that may differ, where its primitives are
   };
   /// The outline of all faces that were written on one curved surface, see Outline.
   using Outlines = std::function<Outline(uint32_t surface)>;
-  /// What has been added is gone after this.
-  Merged merge(const Outlines& outlines);
+  Merged merge(const Outlines& outlines) const;
 
  private:
   /// Faces on one surface as it was written.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "shape/points.h"
 
@@ -60,7 +59,6 @@ HalfSpace facet_half_space(const Plane& facet, Vec3 middle, const Affine& local_
 
 void lower_primitive(const Shape& shape, const Affine& local_from_object, LoweredPrimitive& out) {
   out.half_spaces.clear();
-  out.outline.clear();
   out.is_ball = false;
   out.tip.reset();
   if (const TriangleMesh* const mesh = boundary(shape)) {
@@ -69,14 +67,14 @@ void lower_primitive(const Shape& shape, const Affine& local_from_object, Lowere
   }
   const Affine object_from_local = inverse(local_from_object);
   const std::vector<Plane> planes = facet_planes(shape);
-  std::vector<Vec3> points = outline(shape);
+  const std::optional<Wall> curved = wall(shape);
+  std::vector<Vec3> points;
+  if (!curved || !curved->is_ball()) points = outline(shape);
   out.extent = extent(shape, points, planes, local_from_object);
   Vec3 middle;
-  if (const std::optional<Wall> curved = wall(shape)) {
+  if (curved) {
     middle = curved->center;
     out.half_spaces.push_back(wall_half_space(*curved, local_from_object, object_from_local));
-    for (Vec3& p : points) p = local_from_object.point(p);
-    out.outline = std::move(points);
     out.is_ball = curved->is_ball();
     if (curved->tip) out.tip = local_from_object.point(*curved->tip);
     if (out.tip && !is_finite(*out.tip)) out.tip.reset();
@@ -89,6 +87,16 @@ void lower_primitive(const Shape& shape, const Affine& local_from_object, Lowere
         facet_half_space(plane, middle, local_from_object, object_from_local));
   const auto finite = [](const HalfSpace& h) { return is_finite(h); };
   if (!std::ranges::all_of(out.half_spaces, finite)) out.half_spaces.clear();
+}
+
+size_t face_count(const Shape& shape) {
+  return size_t(!is_flat(shape)) + plane_count(shape);
+}
+
+std::vector<Vec3> wall_outline(const Shape& shape, const Affine& local_from_object) {
+  std::vector<Vec3> points = outline(shape);
+  for (Vec3& p : points) p = local_from_object.point(p);
+  return points;
 }
 
 }  // namespace whittle

@@ -14,8 +14,7 @@ namespace whittle {
 struct LoweredPrimitive {
   std::vector<HalfSpace> half_spaces;  ///< their conjunction is the primitive; empty: the empty set
   Extent extent;
-  std::vector<Vec3> outline;  ///< of its wall, the first half-space; empty if it has none
-  bool is_ball = false;       ///< the wall's, as the tip
+  bool is_ball = false;  ///< the wall's, which is the first half-space; as the tip
   std::optional<Vec3> tip;
 };
 
@@ -28,5 +27,11 @@ HalfSpace facet_half_space(const Plane& facet, Vec3 middle, const Affine& local_
 /// planes. Of what is inside of a boundary, which may have millions, the extent alone. If numbers
 /// overflow there are no half-spaces. `out` is reused.
 void lower_primitive(const Shape& shape, const Affine& local_from_object, LoweredPrimitive& out);
+
+/// How many faces it has: its wall, its planes, and the facets of a boundary.
+size_t face_count(const Shape& shape);
+
+/// The outline of its wall under the same transform.
+std::vector<Vec3> wall_outline(const Shape& shape, const Affine& local_from_object);
 
 }  // namespace whittle

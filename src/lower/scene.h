@@ -1,8 +1,8 @@
 // The lowered model: numbered half-spaces, and one formula over them.
 //
-// All coordinates are local: world minus `origin`, the middle of the region, so that distance from
-// the world's origin eats no digits. Each half-space has a centre of its own near the primitive it
-// came from, for the same reason.
+// All coordinates are local: world minus `origin`, the middle of the region. So a model far from
+// the world's origin loses no digits. For the same reason each half-space has a centre of its own,
+// near the primitive it came from.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 #include "base/affine.h"
 #include "base/box.h"
+#include "base/uninitialized.h"
 #include "kernels/kernels.h"
 #include "lower/boundary.h"
 #include "lower/formula.h"
@@ -65,13 +66,13 @@ struct Scene {
   Box region;            ///< local; the solid is looked at in here; empty if the solid is
   bool bounded = true;   ///< false: the solid may reach beyond the region
   double tolerance = 0;  ///< surfaces this close across are one (docs/conventions.md)
-  std::vector<HalfSpace> half_spaces;
+  UninitializedVector<HalfSpace> half_spaces;
   std::vector<Vec3> tips;  ///< of cones; about its tip a cone's f has the second degree alone
-  std::vector<Face> faces;
-  std::vector<Unit> units;
+  UninitializedVector<Face> faces;
+  UninitializedVector<Unit> units;
   /// Where a facet is, in its primitive's own axes, along which long facets mostly lie. Grown by
   /// more than rounding and merging can have moved it.
-  std::vector<Box> face_boxes;
+  UninitializedVector<Box> face_boxes;
   std::vector<Affine> box_frames;  ///< own from local
   std::vector<Boundary> boundaries;
   Formula formula;

@@ -1,4 +1,4 @@
-// From triangles as a file has them to a closed surface.
+// From the triangles of a file to a closed surface.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace whittle {
 
-/// As read: points may be given many times over, faces may be turned any way.
+/// A mesh as a file gives it: points may be repeated, and faces may be turned either way.
 struct RawMesh {
   std::vector<Vec3> points;
   /// Corner loops; counter-clockwise seen from outside where the format says so. Most are

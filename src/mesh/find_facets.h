@@ -5,11 +5,11 @@
 
 namespace whittle {
 
-/// Fills the facets of a closed mesh, and which one every triangle is in. From the largest
-/// triangles on, a facet takes in neighbours as long as all their corners are within `tolerance` of
-/// the first one's plane; slivers, whose own plane means nothing, go with a neighbour. The plane of
-/// a facet is the mean of its triangles', and square to an axis where all its corners are in such a
-/// plane to within the tolerance.
+/// Fills the facets of a closed mesh, and the facet of every triangle. A facet starts at the
+/// largest triangle that has none, and takes in neighbours as long as all their corners are within
+/// `tolerance` of its plane. Slivers, whose own plane means nothing, go with a neighbour. A facet's
+/// plane is the mean of its triangles' planes, or a plane square to an axis if all its corners are
+/// in one to within the tolerance.
 void find_facets(TriangleMesh& mesh, double tolerance);
 
 }  // namespace whittle

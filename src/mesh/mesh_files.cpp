@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/limit_hint.h"
 #include "mesh/formats.h"
 
 namespace whittle {
@@ -33,7 +34,7 @@ const Format* format_of(std::string_view file_name) {
 
 Error too_many_triangles(size_t most) {
   return mesh_error(
-      fmt::format("it has more triangles than the limit of {}; --limit facets=N raises it", most));
+      fmt::format("it has more triangles than the limit of {}{}", most, limit_hint("facets")));
 }
 
 bool is_mesh_file(std::string_view file_name) {

@@ -20,8 +20,8 @@ bool is_mesh_file(std::string_view file_name);
 Result<RawMesh> read_mesh(std::string_view content, std::string_view file_name,
                           size_t most_triangles);
 
-/// The solid below a height map, as OpenSCAD's surface() makes it (csg-format 2.4): from text, or
-/// from a PNG if the content is one.
+/// The solid below a height map, as OpenSCAD's surface() makes it: from text, or from a PNG if the
+/// content is one.
 Result<RawMesh> read_height_map(std::string_view content, const HeightMap& how,
                                 size_t most_triangles);
 

@@ -1,4 +1,4 @@
-// Triangles that lie on one another and hold nothing between them.
+// Films: pairs of coincident triangles with nothing between them.
 #pragma once
 
 #include <vector>

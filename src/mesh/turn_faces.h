@@ -10,7 +10,7 @@
 
 namespace whittle {
 
-/// Triangles that hang together by edges.
+/// The parts of a mesh: triangles that are connected by edges.
 struct MeshParts {
   std::vector<uint32_t> part_of;  ///< one a triangle
   std::vector<uint8_t> is_open;   ///< one a part: an edge of it is not closed
@@ -19,11 +19,11 @@ struct MeshParts {
   size_t turned = 0;              ///< triangles that were turned
 };
 
-/// Turns triangles so that every edge is run through as often one way as the other, where that can
-/// be. At an edge with two triangles they run opposite ways. At one with more those that hang
-/// together otherwise make up for one another; the rest do as they did from the start if that fits,
-/// else in turn around the edge. What hangs together keeps the way that most of its area was
-/// turned. Every part closes by itself, or is open.
+/// Turns triangles so that every edge is used as often in one direction as in the other, where
+/// possible. At an edge with two triangles they use it in opposite directions. At an edge with
+/// more, triangles that are also connected elsewhere are paired; the rest keep their directions if
+/// these balance, and else alternate around the edge. A connected part keeps the orientation of
+/// most of its area. Every part closes by itself, or is open.
 MeshParts turn_faces(std::span<const Vec3> points, std::vector<Corners>& triangles);
 
 }  // namespace whittle

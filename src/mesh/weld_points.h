@@ -1,4 +1,4 @@
-// Points that are one but for the digits they were written with.
+// Welds points that differ only by the digits they were written with.
 #pragma once
 
 #include <cstdint>

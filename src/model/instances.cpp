@@ -33,6 +33,9 @@ bool overflows(const Shape& shape, const Affine& map) {
   return !(reach.x <= kFarthest && reach.y <= kFarthest && reach.z <= kFarthest);
 }
 
+/// Ranges begin below no more transforms than this.
+constexpr size_t kFewAbove = 64;
+
 /// What an operator has gathered from its operands so far.
 struct BoxFold {
   uint32_t node = 0;
@@ -42,8 +45,54 @@ struct BoxFold {
 
 }  // namespace
 
+std::vector<InstanceRange> instance_ranges(const Model& model, size_t nodes_each) {
+  std::vector<InstanceRange> ranges;
+  std::vector<uint32_t> open;  // transforms
+  const auto begin_at = [&](uint32_t node, uint32_t first) {
+    ranges.push_back({.begin = node, .end = node, .first = first, .count = 0, .above = open});
+  };
+  const uint32_t end = uint32_t(model.nodes.size());
+  uint32_t found = 0;
+  begin_at(0, 0);
+  for (uint32_t i = 0; i < end;) {
+    while (!open.empty() && model.nodes[open.back()].end <= i) open.pop_back();
+    InstanceRange& range = ranges.back();
+    if (i - range.begin >= nodes_each && open.size() <= kFewAbove) {
+      range.end = i;
+      range.count = found - range.first;
+      begin_at(i, found);
+    }
+    const Node& node = model.nodes[i];
+    if (node.kind == NodeKind::kTransform && !node.background) open.push_back(i);
+    found += node.kind == NodeKind::kPrimitive && !node.background;
+    i = node.background ? node.end : i + 1;
+  }
+  ranges.back().end = end;
+  ranges.back().count = found - ranges.back().first;
+  return ranges;
+}
+
+InstanceWalk::InstanceWalk(const Model& model, const InstanceRange& range)
+    : model_(model), at_(range.begin), end_(range.end) {
+  Affine world_from_parent;
+  for (const uint32_t transform : range.above) {
+    const Node& node = model.nodes[transform];
+    world_from_parent = world_from_parent * model.transforms[node.payload];
+    scopes_.push_back({node.end, world_from_parent});
+  }
+}
+
 const Instance* InstanceWalk::next() {
-  while (at_ < model_.nodes.size()) {
+  if (next_place() == nullptr) return nullptr;
+  const Shape& shape = model_.primitives[instance_.primitive].shape;
+  const Affine& map = instance_.world_from_object;
+  instance_.empty =
+      is_empty(shape) || !map.is_finite() || is_singular(map) || overflows(shape, map);
+  return &instance_;
+}
+
+const Instance* InstanceWalk::next_place() {
+  while (at_ < end_) {
     const uint32_t i = at_++;
     const Node& node = model_.nodes[i];
     if (node.background) {
@@ -55,10 +104,7 @@ const Instance* InstanceWalk::next() {
     if (node.kind == NodeKind::kTransform) {
       scopes_.push_back({node.end, world_from_parent * model_.transforms[node.payload]});
     } else if (node.kind == NodeKind::kPrimitive) {
-      const Shape& shape = model_.primitives[node.payload].shape;
-      const bool empty = is_empty(shape) || !world_from_parent.is_finite() ||
-                         is_singular(world_from_parent) || overflows(shape, world_from_parent);
-      instance_ = {i, node.payload, empty, world_from_parent};
+      instance_ = {i, node.payload, false, world_from_parent};
       return &instance_;
     }
   }
@@ -172,6 +218,11 @@ Box instance_box(const Model& model, const Instance& instance) {
 }
 
 Bounds bounds(const Model& model) {
+  InstanceWalk walk(model);
+  return bounds(model, [&](uint32_t) { return instance_box(model, *walk.next()); });
+}
+
+Bounds bounds(const Model& model, const std::function<Box(uint32_t)>& box_of) {
   std::vector<BoxFold> open;
   Box box;
   const auto give_to_parent = [&](const Box& operand) {
@@ -195,7 +246,7 @@ Bounds bounds(const Model& model) {
       give_to_parent(done);
     }
   };
-  InstanceWalk walk(model);
+  uint32_t passed = 0;  // instances
   for (uint32_t i = 0; i < model.nodes.size();) {
     const Node& node = model.nodes[i];
     close_before(i);
@@ -203,7 +254,7 @@ Bounds bounds(const Model& model) {
       i = node.end;
     } else {
       if (node.kind == NodeKind::kPrimitive)
-        give_to_parent(instance_box(model, *walk.next()));
+        give_to_parent(box_of(passed++));
       else
         open.push_back({.node = i, .operands = 0, .box = {}});
       ++i;
@@ -244,7 +295,7 @@ Box view_region(const Bounds& bounds) {
                         : Box{box.center() - all(half), box.center() + all(half)};
 }
 
-double together(const Box& region) {
+double ray_tolerance(const Box& region) {
   constexpr double kFiveRoundings = 1e-15;
   if (region.is_empty()) return 0;
   return kFiveRoundings *

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,14 +20,30 @@ struct Instance {
   Affine world_from_object;
 };
 
+/// A stretch of the nodes, for walks that go through a model side by side.
+struct InstanceRange {
+  uint32_t begin = 0, end = 0;  ///< nodes
+  uint32_t first = 0;           ///< how many instances stand before it
+  uint32_t count = 0;           ///< how many it has
+  std::vector<uint32_t> above;  ///< the transforms around its first node, from the outside in
+};
+
+/// Cuts the nodes into ranges of about so many. Where they are nested very deeply there is no cut,
+/// so that ranges together never take more than the model.
+std::vector<InstanceRange> instance_ranges(const Model& model, size_t nodes_each);
+
 /// Goes through the primitives of the solid in file order; those under `%` are left out. The model
 /// must outlive it.
 class InstanceWalk {
  public:
-  explicit InstanceWalk(const Model& model) : model_(model) {}
+  explicit InstanceWalk(const Model& model) : model_(model), end_(uint32_t(model.nodes.size())) {}
+  /// Through one range alone.
+  InstanceWalk(const Model& model, const InstanceRange& range);
 
   /// The next one; null after the last. What it points to changes with the next call.
   const Instance* next();
+  /// The same, but it is not looked at whether it is empty.
+  const Instance* next_place();
 
  private:
   struct Scope {
@@ -36,6 +53,7 @@ class InstanceWalk {
   const Model& model_;
   std::vector<Scope> scopes_;
   uint32_t at_ = 0;  ///< a node
+  uint32_t end_;     ///< where the walk ends
   Instance instance_;
 };
 
@@ -66,6 +84,8 @@ struct Bounds {
 /// Bounds by the tree's own algebra: union of boxes, intersection of boxes, difference = its first
 /// operand's box. Exact boxes for every primitive under its transform.
 Bounds bounds(const Model& model);
+/// The same if these are at hand: box_of(i) is instance_box() of the i-th instance.
+Bounds bounds(const Model& model, const std::function<Box(uint32_t)>& box_of);
 
 /// The part of a model's box that is seen: of a drawing what is in its plane.
 Box seen_box(const Model& model, Box box);
@@ -88,12 +108,12 @@ inline constexpr double kRelativeTolerance = 2e-6;
 Box view_region(const Bounds& bounds);
 inline constexpr double kUnboundedReach = 1000;
 
-/// Crossings of a ray closer together than this happen together: rounding cannot tell which comes
-/// first. So a curved wall that touches a flat one along a line has one owner there (the tie rules
-/// of docs/conventions.md). About five roundings of numbers as large as the region (world space) is
-/// and as its coordinates are; the parts of a model are many times larger. Surfaces closer together
-/// than this are one (own_tolerance()).
-double together(const Box& region);
+/// Crossings of a ray that are closer than this coincide: rounding cannot tell which comes first.
+/// So a curved wall that touches a flat one along a line has one owner there (the tie rules of
+/// docs/conventions.md). It is about five roundings of numbers as large as the region's size and
+/// coordinates (world space); the parts of a model are many times larger. Surfaces closer than this
+/// are one (own_tolerance()).
+double ray_tolerance(const Box& region);
 
 /// Warnings about transforms that flatten or are not finite, as full messages.
 std::vector<std::string> transform_warnings(const Model& model);

@@ -147,6 +147,34 @@ TEST(Instances, WhatIsTooFarToComputeIsEmpty) {
   EXPECT_TRUE(std::isfinite(dot(view_region(b).size(), view_region(b).size())));
 }
 
+TEST(Instances, RangesTogetherAreTheWholeWalk) {
+  Builder builder;
+  builder.transform(quarter_turn_about_z());
+  for (int i = 0; i < 300; ++i) {
+    builder.transform(shift(1, i, 0)).add(unit_cube(), true).open(NodeKind::kUnion, 0, i % 9 == 0);
+    builder.transform(scaling({2, 1, 1})).add(unit_cube()).add(Sphere{1, 0}).close();
+    builder.add(Sphere{0, 0}).close();
+    // Nested ever more deeply in the middle.
+    if (i < 100 || i >= 200) builder.close();
+  }
+  const Model model = builder.done();
+  const std::vector<Instance> whole = instances(model);
+  const auto same = [](const Instance& a, const Instance& b) {
+    return a.node == b.node && a.primitive == b.primitive && a.empty == b.empty &&
+           a.world_from_object == b.world_from_object;
+  };
+  for (const size_t nodes_each : {1, 7, 100, 1'000'000}) {
+    std::vector<Instance> found;
+    for (const InstanceRange& range : instance_ranges(model, nodes_each)) {
+      EXPECT_EQ(range.first, found.size());
+      InstanceWalk walk(model, range);
+      while (const Instance* instance = walk.next()) found.push_back(*instance);
+      EXPECT_EQ(range.first + range.count, found.size());
+    }
+    EXPECT_TRUE(std::equal(found.begin(), found.end(), whole.begin(), whole.end(), same));
+  }
+}
+
 TEST(Instances, AMillionDeep) {
   Builder builder;
   for (int i = 0; i < 1000000; ++i) {

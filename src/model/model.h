@@ -5,6 +5,7 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -21,6 +22,12 @@ struct SourceLocation {
   uint32_t column = 0;
   auto operator<=>(const SourceLocation&) const = default;
 };
+
+/// A place in a piece of a text, which begins at `start`, as a place in the whole.
+inline SourceLocation place_in_whole(SourceLocation in_piece, SourceLocation start) {
+  return {start.line + in_piece.line - 1,
+          in_piece.line == 1 ? start.column + in_piece.column - 1 : in_piece.column};
+}
 
 struct Primitive {
   Shape shape;
@@ -47,6 +54,8 @@ enum class NodeKind : uint8_t {
   kOperation,     ///< in a Document only: operations[payload] over the children
   kLeaf,          ///< in a Document only: leaves[payload]
 };
+
+inline constexpr size_t kNodeKinds = size_t(NodeKind::kLeaf) + 1;
 
 struct Node {
   NodeKind kind = NodeKind::kUnion;

@@ -1,9 +1,10 @@
 // What every shape must say of itself.
 //
-// A shape is a struct of numbers with the members below, in a file of its own here. What lacks one
-// is no Shape, and does not compile; nobody else takes one shape for another. Sizes are model
-// units, coordinates the shape's own, and `map` leads from them to where it stands. But for
-// is_empty() and facet_count() the shape must not be empty, nor the map singular.
+// A shape is a struct of numbers with the members below, in a file of its own in this folder. A
+// struct that lacks one of them does not compile as a Shape. Code elsewhere does not ask which
+// shape it has. Sizes are in model units, coordinates are the shape's own, and `map` leads from
+// them to where it stands. Except for is_empty() and facet_count(), the shape must not be empty and
+// the map not singular.
 #pragma once
 
 #include <cmath>
@@ -56,8 +57,10 @@ concept CompleteShape = requires(const S& shape, const Affine& map, std::span<co
   /// How many facets it takes of those that a file may have. Those that are always there, and
   /// few, do not count.
   { shape.facet_count() } -> std::same_as<uint64_t>;
-  /// Its flat faces, outward.
+  /// Its flat faces as planes with outward normals.
   { shape.facet_planes() } -> std::same_as<std::vector<Plane>>;
+  /// How many those are.
+  { shape.plane_count() } -> std::same_as<size_t>;
   /// Points that stand for its surface: the corners of a flat one, points on the wall of a
   /// curved one; none if it is unbounded.
   { shape.outline() } -> std::same_as<std::vector<Vec3>>;
@@ -71,7 +74,7 @@ concept CompleteShape = requires(const S& shape, const Affine& map, std::span<co
   /// A box around it, cheap rather than tight; of what is unbounded the points of its surface
   /// that are nearest to the origin.
   { shape.finite_box(map) } -> std::same_as<Box>;
-  /// Its outline() and facet_planes() are at hand.
+  /// Its outline() and facet_planes() are at hand. That of a true ball may be left out.
   { shape.extent(outline, planes, map) } -> std::same_as<Extent>;
 };
 

@@ -25,9 +25,9 @@ class CornerTree {
   /// All places must be finite.
   explicit CornerTree(std::vector<Corner> corners);
 
-  /// Calls `visit(corner)` for all corners but those that `is_wanted` excludes: it is asked with a
-  /// height that no corner of some set exceeds, and a distance from `from` that none of them falls
-  /// short of, and may change its mind as corners are visited. Heights are along `n`, a unit
+  /// Calls `visit(corner)` for all corners but those that `is_wanted` excludes. It is asked about
+  /// sets of corners, with an upper bound of their heights and a lower bound of their distances
+  /// from `from`; its answers may change as corners are visited. Heights are along `n`, a unit
   /// vector, above the origin.
   template <class IsWanted, class Visit>
   void search(Vec3 n, Vec3 from, const IsWanted& is_wanted, const Visit& visit) const;

@@ -15,6 +15,7 @@ struct Cube {
   uint64_t facet_count() const { return 0; }
   std::nullopt_t wall() const { return std::nullopt; }
   std::vector<Plane> facet_planes() const;
+  size_t plane_count() const { return 6; }
   std::vector<Vec3> outline() const;
   std::vector<Box> facet_boxes() const;
   const TriangleMesh* boundary() const { return nullptr; }

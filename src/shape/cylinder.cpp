@@ -79,6 +79,10 @@ std::vector<Plane> Cylinder::facet_planes() const {
   return planes;
 }
 
+size_t Cylinder::plane_count() const {
+  return facets == 0 ? 2 : size_t(facets) + size_t(r1 > 0) + size_t(r2 > 0);
+}
+
 std::vector<Vec3> Cylinder::outline() const {
   std::vector<Vec3> points;
   if (facets == 0) {

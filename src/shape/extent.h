@@ -35,22 +35,24 @@ Extent united(const Extent& a, const Extent& b);
 
 /// How near another surface must be to a surface of this primitive to be the same: the model's
 /// tolerance, but never more than a thousandth of the primitive's own width, so that none is eaten,
-/// and never less than what rounding can tell apart (see together()), so that equal faces are one.
-inline double own_tolerance(double model_tolerance, const Extent& extent, double together) {
-  return std::max(together, std::min(model_tolerance, 1e-3 * extent.width));
+/// and never less than what rounding can tell apart (see ray_tolerance()), so that equal faces are
+/// one.
+inline double own_tolerance(double model_tolerance, const Extent& extent, double ray_tolerance) {
+  return std::max(ray_tolerance, std::min(model_tolerance, 1e-3 * extent.width));
 }
 
-/// Surfaces that are no farther apart than this were written to be the same. No decimal fraction,
-/// nor is the next one: people write round numbers, and what is exactly so far apart as rounding
-/// decides about should be nothing that they write.
-inline double equal_tolerance(double own_tolerance, double together) {
-  return std::max(together, own_tolerance / 1500);
+/// Surfaces that are no farther apart than this were written to be the same. Its divisor and the
+/// next one are chosen so that no round decimal number is exactly at the limit, where rounding
+/// would decide: people write round numbers.
+inline double equal_tolerance(double own_tolerance, double ray_tolerance) {
+  return std::max(ray_tolerance, own_tolerance / 1500);
 }
 
-/// Surfaces that were written to be the same are the same as another one together or not at all: by
-/// the largest of their tolerances, but never more than a 15th of the thinnest primitive's width.
-inline double joint_tolerance(double largest_tolerance, double thinnest, double together) {
-  return std::max(together, std::min(largest_tolerance, thinnest / 15));
+/// Surfaces that were written to be the same lie on an earlier surface all at once or not at all.
+/// The tolerance for that is the largest of theirs, but never more than a 15th of the width of the
+/// thinnest primitive.
+inline double joint_tolerance(double largest_tolerance, double thinnest, double ray_tolerance) {
+  return std::max(ray_tolerance, std::min(largest_tolerance, thinnest / 15));
 }
 
 }  // namespace whittle

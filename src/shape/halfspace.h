@@ -16,6 +16,7 @@ struct Halfspace {
   uint64_t facet_count() const { return 0; }
   std::nullopt_t wall() const { return std::nullopt; }
   std::vector<Plane> facet_planes() const;
+  size_t plane_count() const { return 1; }
   std::vector<Vec3> outline() const { return {}; }
   std::vector<Box> facet_boxes() const { return {Box::everything()}; }
   const TriangleMesh* boundary() const { return nullptr; }

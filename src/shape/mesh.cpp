@@ -44,6 +44,10 @@ std::vector<Plane> Mesh::facet_planes() const {
   return surface->facets;
 }
 
+size_t Mesh::plane_count() const {
+  return surface->facets.size();
+}
+
 std::vector<Vec3> Mesh::outline() const {
   return surface->points;
 }

@@ -17,6 +17,7 @@ struct Mesh {
   uint64_t facet_count() const;
   std::nullopt_t wall() const { return std::nullopt; }
   std::vector<Plane> facet_planes() const;
+  size_t plane_count() const;
   std::vector<Vec3> outline() const;
   std::vector<Box> facet_boxes() const;
   const TriangleMesh* boundary() const { return surface.get(); }

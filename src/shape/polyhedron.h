@@ -18,6 +18,7 @@ struct Polyhedron {
   uint64_t facet_count() const { return faces.size(); }
   std::nullopt_t wall() const { return std::nullopt; }
   std::vector<Plane> facet_planes() const { return planes; }
+  size_t plane_count() const { return planes.size(); }
   std::vector<Vec3> outline() const;
   std::vector<Box> facet_boxes() const;
   const TriangleMesh* boundary() const { return nullptr; }

@@ -29,6 +29,10 @@ std::vector<Plane> facet_planes(const Shape& shape) {
   return std::visit([](const auto& s) { return s.facet_planes(); }, shape);
 }
 
+size_t plane_count(const Shape& shape) {
+  return std::visit([](const auto& s) { return s.plane_count(); }, shape);
+}
+
 std::vector<Vec3> outline(const Shape& shape) {
   WHITTLE_CHECK(!is_empty(shape));
   return std::visit([](const auto& s) { return s.outline(); }, shape);

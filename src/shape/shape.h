@@ -34,6 +34,7 @@ bool is_exact(const Shape& shape);
 uint64_t facet_count(const Shape& shape);
 std::optional<Wall> wall(const Shape& shape);
 std::vector<Plane> facet_planes(const Shape& shape);
+size_t plane_count(const Shape& shape);
 std::vector<Vec3> outline(const Shape& shape);
 std::vector<Box> facet_boxes(const Shape& shape);
 const TriangleMesh* boundary(const Shape& shape);

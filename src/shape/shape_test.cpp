@@ -175,6 +175,14 @@ TEST(Facets, BoxesHoldTheFacetsOfCoarsePolyhedra) {
   }
 }
 
+TEST(FacetPlanes, AreAsManyAsCounted) {
+  for (const Shape& shape :
+       {Shape(Sphere{3, 0}), Shape(Sphere{3, 5}), Shape(Sphere{3, 8}), Shape(Cylinder{4, 2, 1}),
+        Shape(Cylinder{4, 2, 1, false, 7}), Shape(Cylinder{4, 2, 0, true, 12}),
+        Shape(Cylinder{4, 0, 2, true, 9}), Shape(Cube{}), Shape(Halfspace{})})
+    EXPECT_EQ(plane_count(shape), facet_planes(shape).size());
+}
+
 TEST(Facets, BoxesHoldTheFacets) {
   for (const Shape& shape :
        {Shape(Sphere{3, 5}), Shape(Sphere{3, 8}), Shape(Sphere{2, 31}),

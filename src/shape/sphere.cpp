@@ -76,6 +76,10 @@ std::vector<Plane> Sphere::facet_planes() const {
   return planes;
 }
 
+size_t Sphere::plane_count() const {
+  return facets > 0 ? size_t(facets) * size_t(ring_count(facets) - 1) + 2 : 0;
+}
+
 std::vector<Vec3> Sphere::outline() const {
   std::vector<Vec3> points;
   if (facets == 0) {
@@ -121,14 +125,21 @@ Box Sphere::finite_box(const Affine& map) const {
 Extent Sphere::extent(std::span<const Vec3> outline, std::span<const Plane> planes,
                       const Affine& map) const {
   if (facets > 0) return flat_extent(outline, planes, map);
-  const Vec3 middle = middle_of(outline);
+  // The outline is the same on both sides of the middle, and those half that come first are not
+  // opposite one another.
+  double longest = 0;
+  const auto& directions = outline_directions();
+  for (size_t i = 0; i < kOutlinePoints / 2; ++i) {
+    const Vec3 way = map.vector(directions[i]);
+    longest = std::max(longest, dot(way, way));
+  }
   // A ball's image has the semi-axes 1 / sqrt(the eigenvalues of back^T back); their mean stands
   // for the largest.
   const Affine back = inverse(map);
   const double mean = (dot(back.row[0], back.row[0]) + dot(back.row[1], back.row[1]) +
                        dot(back.row[2], back.row[2])) /
                       3;
-  return {map.point(middle), reach(outline, middle, map), 2 * r / std::sqrt(mean)};
+  return {map.translation, r * std::sqrt(longest), 2 * r / std::sqrt(mean)};
 }
 
 }  // namespace whittle

@@ -16,6 +16,7 @@ struct Sphere {
   double widest_radius() const { return r; }
   std::optional<Wall> wall() const;
   std::vector<Plane> facet_planes() const;
+  size_t plane_count() const;
   std::vector<Vec3> outline() const;
   std::vector<Box> facet_boxes() const;
   const TriangleMesh* boundary() const { return nullptr; }

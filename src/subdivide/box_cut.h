@@ -1,5 +1,5 @@
-// Where to cut a cell in which nearly all is in a small part: beside the boxes of what is there,
-// instead of in the middle again and again.
+// Where to cut a cell whose content fills only a small part of it: beside the boxes of the content,
+// instead of in the middle many times over.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace whittle {
 
-/// A plane that parts a cell.
+/// A plane that cuts a cell in two.
 struct Cut {
   int axis = 0;
   double at = 0;
@@ -21,9 +21,9 @@ class BoxCutter {
   /// `margin`: how far cells are grown before anything is classified, local units.
   BoxCutter(const Scene& scene, double margin) : scene_(scene), margin_(margin) {}
 
-  /// The cut next to a box of an operand with which rays through the cell meet the fewest literals,
-  /// as far as boxes tell, unless `middle` is much better. None where the operands fill the cell,
-  /// which is found out in no time; the rest takes n log n for n operands.
+  /// Of the cuts beside operands' boxes, the one with which rays through the cell meet the fewest
+  /// literals, as far as boxes tell. None if `middle` is much better, or if the operands fill the
+  /// cell (which is found out at once). Takes n log n time for n operands.
   std::optional<Cut> cut(std::span<const Token> formula, const Box& cell, Cut middle);
 
  private:

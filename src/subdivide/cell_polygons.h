@@ -31,7 +31,7 @@ struct CellPolygons {
     int outward;  ///< 1: the body is behind its plane; -1: in front of it
   };
 
-  /// In the cell triangles are no farther from their planes than this: what is thinner tells
+  /// In the cell no triangle is farther than this from its plane. A polygon thinner than that says
   /// nothing about sides.
   double slack = 0;
   std::vector<Plane> planes;

@@ -1,10 +1,10 @@
-// The cells: a binary tree of boxes, each leaf with a formula that is right inside it and as short
-// as can be. View-independent, unless small cells are decided by a threshold; that may move
-// (threshold.h).
+// The cells: a binary tree of boxes. Each leaf has a formula that is right inside it and as short
+// as can be. The tree does not depend on the view, unless a pixel threshold decides which cells are
+// small; that threshold may move (threshold.h).
 //
-// A tree is lazy: cells start open, and whoever meets one first refines it (refine.h). Cells and
-// leaves never move in memory, and what is no longer open changes only where a threshold moves, so
-// any number of threads may read.
+// The tree is lazy: cells start open, and whoever meets an open cell first refines it (refine.h).
+// Cells and leaves never move in memory, and a cell that is no longer open changes only when a
+// threshold moves. So any number of threads may read.
 #pragma once
 
 #include <array>
@@ -30,6 +30,10 @@ enum class CellKind : uint8_t {
   kOpen,         ///< not known yet: Refiner::refined() makes it one of the others
 };
 inline constexpr int kCellKinds = 9;
+/// The kinds of leaves that rays solve.
+inline constexpr bool is_leaf(CellKind kind) {
+  return kind >= CellKind::kConjunction && kind <= CellKind::kProgram;
+}
 inline constexpr uint32_t kTableLiterals = 6;
 /// Splits on the longest way down are no more than this, whatever the rules.
 inline constexpr uint32_t kMostDepth = 160;
@@ -114,7 +118,7 @@ struct Cell {
 };
 static_assert(sizeof(Cell) == 16);
 
-/// What there is so far; with a threshold that moved, what lies below cells that became small too.
+/// What there is so far. If a threshold has moved, cells below those that became small count, too.
 struct SubdivideStats {
   std::array<uint64_t, kCellKinds> cells{};  ///< by CellKind
   std::vector<uint64_t> leaves_by_size;      ///< leaves with i literals

@@ -144,9 +144,9 @@ inline Bound outer_bound(const Scene& scene, Literal literal, const CellBox& cel
   return {(pm / rho - w) * length, (rho - along) * length, false};
 }
 
-/// Whether no point of the cell, of half size h, is in both by more than the margin: some weighted
-/// sum of the two bounds is above zero all over the cell. As a function of the weight that is
-/// concave, with kinks where a coordinate cancels.
+/// Whether no point of the cell, of half size h, is in both by more than the margin. Proved by a
+/// weighted sum of the two bounds that is above zero all over the cell. The least value of the sum
+/// is a concave function of the weight, with kinks where a coordinate cancels.
 inline bool are_apart(const Bound& a, const Bound& b, Vec3 h, double margin) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!(a.n[axis] * b.n[axis] < 0)) continue;

@@ -10,8 +10,8 @@
 
 namespace whittle {
 
-/// What a boundary counts for whose half-spaces in a cell are not counted: as if they were one
-/// too many. It will be split until they are few.
+/// The size of a boundary whose half-spaces in a cell were not counted: one more than a leaf may
+/// have, so that the cell is split until they are few enough to count.
 inline constexpr uint32_t kManyLiterals = LocalBsp::kMostCounted + 1;
 
 /// Literals that a formula would have with all its primitives expanded.

@@ -23,8 +23,8 @@ class LocalBsp {
   static constexpr uint32_t kTooMany = UINT32_MAX;
 
   /// How many half-spaces the triangles in a cell lie on; kTooMany for more than kMostCounted, or
-  /// for too many triangles. With
-  /// 0 the cell is inside or outside as a whole: is_inside().
+  /// for too many triangles. If it is 0 the cell as a whole is inside or outside: is_inside() says
+  /// which.
   ///
   /// `known`: triangles, among which are all that reach the cell. Those that do are in listed()
   /// then, if there are few.

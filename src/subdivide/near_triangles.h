@@ -1,4 +1,4 @@
-// Which triangles of boundaries reach a cell: parts of the cell need not look for them in the whole
+// Which triangles of boundaries reach a cell. The cell's parts search these, and not the whole
 // boundary.
 #pragma once
 

@@ -11,11 +11,13 @@ namespace whittle {
 
 /// Its memory serves all cells.
 ///
-/// A node tells by how much the winding numbers differ of the two parts on either side of its
-/// sample, so the n - 1 nodes relate all n parts, and one of them is looked up in the whole
-/// boundary. That goes for samples with room around them. What is only held together by others is
-/// looked up by itself, at a point that no triangle is near; only where no such point is found does
-/// it follow from its neighbours.
+/// A node says by how much the winding number changes across its sample, from the part on one side
+/// to that on the other. So the n - 1 nodes relate all n parts, and one part is looked up in the
+/// whole boundary.
+///
+/// This relies on samples with room around them. Parts that are related only by samples without
+/// room are looked up by themselves, at a point that no triangle is near. Only where there is no
+/// such point does a part follow from its neighbours after all.
 class PartWindings {
  public:
   void find(const Boundary& boundary, const CellBox& cell, const CellPolygons& in,

@@ -40,7 +40,7 @@ inline bool same_where_known(const CellTree& a, const CellTree& b, size_t* compa
       if (lx.axis() != ly.axis() || x->split != y->split) return false;
       for (int side = 0; side < 2; ++side)
         stack.push_back({lx.children() + side, ly.children() + side});
-    } else if (lx.kind() >= CellKind::kConjunction && !same_leaf(lx.leaf(), ly.leaf())) {
+    } else if (is_leaf(lx.kind()) && !same_leaf(lx.leaf(), ly.leaf())) {
       return false;
     }
   }

@@ -25,6 +25,13 @@ enum class Expand : uint8_t {
            ///< simplified from one in which boundaries are whole.
 };
 
+/// Formulas that would have no more literals than this get all their primitives expanded.
+inline constexpr uint32_t kExpandAll = 64;
+/// `literals`: those that a formula would have with all its primitives expanded.
+constexpr Expand expand_of(uint32_t literals) {
+  return literals <= kExpandAll ? Expand::kUnits : Expand::kLarge;
+}
+
 enum class Truth : uint8_t { kFalse, kTrue, kVaries };
 
 class Simplifier {

@@ -8,23 +8,17 @@
 #include <vector>
 
 #include "base/workers.h"
+#include "subdivide/first_cells.h"
 #include "subdivide/simplify.h"
 #include "subdivide/tangents.h"
 
 namespace whittle {
 namespace {
 
-/// Formulas of no more literals than this are looked at as a union of polytopes, if there are no
-/// more polytopes than kMostTerms.
-constexpr uint32_t kFewLiterals = 32;
+/// Formulas of more polytopes than this are not looked at as a union of them.
 constexpr size_t kMostTerms = 64;
-/// Formulas that would have no more literals than this get all their primitives expanded.
-constexpr uint32_t kExpandAll = 64;
 /// Tokens that one search may classify: a number, and some passes over the formula.
 constexpr size_t kMostTokens = size_t(1) << 22, kMostPasses = 32;
-/// Where a cell is split: not in the middle, where symmetrical models have faces, which then are in
-/// both halves.
-constexpr double kSplitShare = 0.483;
 /// A polytope that cannot hold a ball of this radius, as a share of the accuracy, is nothing: flat
 /// leftovers, points where surfaces touch. A tenth of the tolerance, which is what material must be
 /// thick: texts of six digits leave such slivers.
@@ -57,13 +51,19 @@ class Program {
 /// The search in one direction, +axis or -axis.
 class Search {
  public:
-  Search(const Scene& scene, const UnitBoxes& boxes, int axis, int sign, double accuracy)
-      : scene_(scene), axis_(axis), sign_(sign), accuracy_(accuracy), simplifier_(scene, boxes, 0) {
+  Search(const Scene& scene, const UnitBoxes& boxes, const FirstCells& first, int axis, int sign,
+         double accuracy)
+      : scene_(scene),
+        first_(first),
+        axis_(axis),
+        sign_(sign),
+        accuracy_(accuracy),
+        simplifier_(scene, boxes, 0) {
     objective_[axis] = sign;
   }
 
-  Farthest run(const Box& start, size_t most_cells) {
-    open_child(scene_.formula, start);
+  Farthest run(size_t most_cells) {
+    open_first(0);
     const size_t most_tokens = kMostTokens + kMostPasses * scene_.formula.size();
     for (size_t cells = 0; !open_.empty(); ++cells) {
       std::ranges::pop_heap(open_, comes_later);
@@ -85,6 +85,7 @@ class Search {
     Formula formula;
     Simplifier::Size size;  ///< of the formula
     Formula faces;          ///< the formula, expanded
+    size_t parts = 0;       ///< among the first cells, see there
   };
   static bool comes_later(const Cell& a, const Cell& b) {
     return a.reach != b.reach ? a.reach < b.reach : a.order < b.order;
@@ -101,9 +102,7 @@ class Search {
 
   /// Simplifies a formula for a box. What is all solid is noted.
   Truth simplify(const Formula& around, const Box& box, Formula& out) {
-    const Expand expand =
-        expanded_size(scene_, around) <= kExpandAll ? Expand::kUnits : Expand::kLarge;
-    const Truth truth = simplifier_.simplify(around, box, expand, out);
+    const Truth truth = simplify_for(box, around, scene_, simplifier_, out);
     if (truth == Truth::kTrue) best_ = std::max(best_, reach_of(box));
     return truth;
   }
@@ -129,7 +128,18 @@ class Search {
     const Truth truth = simplify(around, box, formula);
     if (truth != Truth::kVaries) return;
     const Simplifier::Size size = simplifier_.size_of(formula);
-    open_.push_back({reach_of(box), order_++, box, std::move(formula), size, {}});
+    open_.push_back({reach_of(box), order_++, box, std::move(formula), size, {}, 0});
+    std::ranges::push_heap(open_, comes_later);
+  }
+
+  /// The same for one of the first cells.
+  void open_first(size_t i) {
+    const FirstCells::Cell& cell = first_[i];
+    tokens_ += first_.around(i).size();
+    if (cell.truth == Truth::kTrue) best_ = std::max(best_, reach_of(cell.box));
+    if (cell.truth != Truth::kVaries) return;
+    open_.push_back(
+        {reach_of(cell.box), order_++, cell.box, cell.formula, cell.size, {}, cell.parts});
     std::ranges::push_heap(open_, comes_later);
   }
 
@@ -144,9 +154,13 @@ class Search {
       if (truth != Truth::kVaries) return;
       cell.formula = std::move(formula);
       cell.size = simplifier_.size_of(cell.formula);
+    } else if (cell.parts != 0) {
+      open_first(cell.parts);
+      open_first(cell.parts + 1);
+      return;
     }
     int split_axis = longest_axis(cell.box);
-    if (!cell.size.is_crowded && cell.size.literals <= kFewLiterals && make_faces_of(cell)) {
+    if (!is_large(cell.size) && make_faces_of(cell)) {
       if (cell.faces.empty()) return;
       const double reach = reach_of_terms(cell);
       if (reach <= best_ + accuracy_) return;
@@ -161,17 +175,7 @@ class Search {
       best_ = std::max(best_, reach_of(cell.box));
       return;
     }
-    const double split =
-        cell.box.lo[split_axis] + kSplitShare * (cell.box.hi[split_axis] - cell.box.lo[split_axis]);
-    Box low = cell.box, high = cell.box;
-    low.hi[split_axis] = high.lo[split_axis] = split;
-    open_child(cell.formula, low);
-    open_child(cell.formula, high);
-  }
-
-  static int longest_axis(const Box& box) {
-    const Vec3 size = box.size();
-    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    for (const Box& part : split(cell.box, split_axis)) open_child(cell.formula, part);
   }
 
   /// The axis along which the surfaces bend most in the cell: splitting it brings them nearest to
@@ -314,6 +318,7 @@ class Search {
   static double min_component(Vec3 v) { return std::min(v.x, std::min(v.y, v.z)); }
 
   const Scene& scene_;
+  const FirstCells& first_;
   int axis_, sign_;
   Vec3 objective_{};
   double accuracy_;
@@ -331,10 +336,12 @@ class Search {
 /// The solid's box within `start`, local, each side wrong by at most `accuracy`.
 SolidBounds search_all(const Scene& scene, const UnitBoxes& boxes, const Box& start,
                        double accuracy, size_t most_cells, const Workers& workers) {
+  const FirstCells first_cells(scene, boxes, start, workers);
   std::array<Farthest, 6> found;
   workers.for_parts(found.size(), 1, [&](size_t first, size_t last, size_t) {
     for (size_t i = first; i < last; ++i)
-      found[i] = Search(scene, boxes, int(i / 2), i % 2 ? 1 : -1, accuracy).run(start, most_cells);
+      found[i] =
+          Search(scene, boxes, first_cells, int(i / 2), i % 2 ? 1 : -1, accuracy).run(most_cells);
   });
   SolidBounds result;
   for (int axis = 0; axis < 3; ++axis) {
@@ -351,7 +358,7 @@ SolidBounds search_all(const Scene& scene, const UnitBoxes& boxes, const Box& st
 SolidBounds solid_bounds(const Scene& scene, int threads, size_t most_cells) {
   if (scene.region.is_empty()) return {};
   const Workers workers(threads);
-  const UnitBoxes boxes(scene);
+  const UnitBoxes boxes(scene, &workers);
   SolidBounds result;
   Box start = scene.region;
   // A box that turns out much smaller than where it was looked for is looked for again in there.

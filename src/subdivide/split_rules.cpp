@@ -8,9 +8,6 @@
 namespace whittle {
 namespace {
 
-/// Formulas that would have no more literals than this get all their primitives expanded.
-constexpr uint32_t kExpandAll = 64;
-
 /// A cell whose formula has not become shorter, in itself and in its sibling, over this many splits
 /// in a row is a corner or an edge where many surfaces meet: no split will part them.
 uint32_t stall_limit(uint32_t literals) {
@@ -36,10 +33,6 @@ bool pays_off(uint32_t literals, double rays, uint32_t quick = kTableLiterals) {
 constexpr uint32_t kFew = 16;
 
 }  // namespace
-
-Expand expand_of(uint32_t literals) {
-  return literals <= kExpandAll ? Expand::kUnits : Expand::kLarge;
-}
 
 double half_area(const Box& box) {
   const Vec3 size = box.size();

@@ -11,9 +11,6 @@
 
 namespace whittle {
 
-/// What is to be expanded of a formula with so many literals.
-Expand expand_of(uint32_t literals);
-
 /// A ray that meets a box meets a part of it about as often as the part has surface of it.
 double half_area(const Box& box);
 

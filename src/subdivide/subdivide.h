@@ -3,8 +3,8 @@
 // Based on: the paper, section 2 (binary subdivision, each cell's tree simplified from its
 // parent's). What we changed: literals are half-spaces; a leaf holds up to k of them, simplified
 // completely by its truth table where there are at most six; no leaf is dropped unless asked for;
-// cells are refined when they are looked at, or all at once on all threads; what they become does
-// not depend on that.
+// cells are refined when a ray first meets them, or all at once on all threads. The cells are the
+// same either way.
 #pragma once
 
 #include <functional>
@@ -41,9 +41,10 @@ inline constexpr uint32_t kAutoLeafSize = 0;
 /// Whether a cell is small, by its box.
 using IsSmall = std::function<bool(const Box&)>;
 
-/// Far above the rounding of a ray's entry and exit in double (1e-15), far below anything seen, be
-/// it small in a large model. It puts a surface that lies exactly on a split into both cells, so no
-/// ray slips between them.
+/// How far cells are grown, as a share of the region's longest edge. Far above the rounding of a
+/// ray's entry and exit in double (1e-15), and far below anything that is seen, even of a small
+/// part in a large model. A surface that lies exactly on a split is so in both cells, and no ray
+/// slips between them.
 inline constexpr double kCellMargin = 1e-12;
 
 struct SubdivideSettings {
@@ -84,7 +85,8 @@ struct SubdivideSettings {
 CellTree open_cells(const Scene& scene, const SubdivideSettings& settings,
                     const Workers* workers = nullptr);
 
-/// Refines the cells with long formulas, which all who look at the tree meet first, on all threads.
+/// Refines the cells with long formulas, on all threads. They are the ones at the top of the tree,
+/// which every ray meets first.
 void refine_top(const CellTree& tree, const Workers& workers);
 
 /// Refines the cells level by level, on all threads, until enough are open to keep these busy.

@@ -1,4 +1,4 @@
-// Surfaces in a small cell, as their tangent planes and what they bend away from them.
+// Surfaces in a small cell, as their tangent planes and how far they bend away from these.
 #pragma once
 
 #include <optional>
@@ -24,10 +24,10 @@ std::optional<Tangent> tangent(const Scene& scene, Literal literal, Vec3 center)
 /// moved out by as much as the surface may bend away from it.
 Constraint outer_plane(const Tangent& tangent, Vec3 half);
 
-/// No point of the cell that fulfils all of up to three tangents has a larger objective.q than
-/// this. It is the sum of the tangents in which the objective is nearest to the normals: what they
-/// bend in opposite ways cancels, so the rim of two surfaces that meet is found as exactly as a
-/// corner of planes. Infinity if they say nothing.
+/// An upper bound of objective.q over the points of the cell that fulfil all of up to three
+/// tangents; infinity if there is none. It comes from the sum of the tangents whose normals combine
+/// to the objective as nearly as possible. Bends of opposite sign cancel in that sum, so the rim
+/// where two surfaces meet is bounded as exactly as a corner of planes.
 double combined_reach(std::span<const Tangent* const> tangents, Vec3 objective, Vec3 half);
 
 }  // namespace whittle

@@ -1,18 +1,18 @@
 // A threshold that moves: one tree serves all cameras of a renderer, though small cells end where a
 // camera says that they are small.
 //
-// Every cell that would be another one across the threshold keeps what it would be: a link, or, as
-// long as nobody knows, the formula to find it out from. When the threshold moves, cells that
-// crossed it change places with what they are across. What lay below a cell that became small stays
-// in memory and is there again when the cell is no longer small; what was never needed before is
-// open and is refined when somebody looks. So the tree is what one made afresh with that threshold
-// would be, and only what is new is refined.
+// A cell that is small on one side of the threshold and not on the other keeps both of its forms:
+// the one in use, and the other as a link, or as the formula to make it from. When the threshold
+// moves, each cell that crossed it exchanges the two. What lay below a cell that became small stays
+// in memory, and is there again when the cell is no longer small. What was never needed before is
+// open, and is refined when a ray meets it. So the tree equals one made afresh with the new
+// threshold, and only what is new is refined.
 //
-// Memory: what is in use takes what `memory` of the settings lets a fresh tree take, and formulas
-// of cells that are split besides (where small cells are ignored, only those of the few that have
-// more literals than are expanded at once). What is out of use stays until
-// MovedThreshold::is_crowded says that it is too much: who heeds that holds at most `memory` and
-// what one more picture needs.
+// Memory: the cells in use take what `memory` of the settings allows a fresh tree, plus the
+// formulas of cells that are split (where small cells are ignored, only of the few that have more
+// literals than are expanded at once). What is out of use stays until MovedThreshold::is_crowded
+// says that it is too much. A caller that then makes a new tree holds at most `memory` and what one
+// more picture needs.
 #pragma once
 
 #include "subdivide/subdivide.h"

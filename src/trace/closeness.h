@@ -1,4 +1,4 @@
-// How closely a picture looks at a model: what cells should be as small as.
+// How closely a picture looks at a model, which decides how small cells should be.
 #pragma once
 
 #include "base/box.h"
@@ -6,14 +6,14 @@
 
 namespace whittle {
 
-/// So many rays would meet the longest edge of the region, squared, if all of it were seen as large
-/// as its nearest point. About the picture's pixels where the region fills the picture, and many
-/// more where a small part of it does; infinite if the eye is level with it. What is empty or
-/// hidden counts, so this is a bound.
+/// The number of rays that would meet a square as long as the region's longest edge, if all of it
+/// were as close as the region's nearest point. About the number of pixels if the region fills the
+/// picture, and many more if a small part of it does; infinite if the nearest point is beside the
+/// eye. It is an upper bound, since empty and hidden parts count.
 double rays_at_most(const Camera& camera, const Box& region);
 
-/// The same of the nearest hit, as far as some rays spread over the picture tell; 0: nothing is
-/// hit. `tracer` is one of the model's.
+/// The same for the nearest hit among some rays spread over the picture; 0 if none of them hits.
+/// `tracer` is one of the model's.
 double rays_at_nearest_hit(Tracer& tracer, const Camera& camera, const Box& region);
 
 }  // namespace whittle

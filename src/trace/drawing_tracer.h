@@ -1,7 +1,7 @@
 // What is seen of a drawing: the plane z = 0 where the drawing's slab meets it.
 //
-// Any backend can draw it. A ray meets the plane at one point; whether something is there, and
-// whose it is, a ray of the backend says that comes straight from above.
+// Any backend can draw it. A ray meets the plane at one point. What is there, a ray of the backend
+// says that comes straight from above.
 #pragma once
 
 #include <vector>

@@ -11,7 +11,7 @@
 
 namespace whittle {
 
-/// Of one camera. Pure, so thread-safe.
+/// The threshold of one camera. It has no state that changes, so it is thread-safe.
 class PixelThreshold {
  public:
   PixelThreshold(const Camera& camera, double pixels);

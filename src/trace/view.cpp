@@ -111,7 +111,7 @@ bool gives_camera(const ViewOptions& options) {
 Status check_view(const ViewOptions& options) {
   if (options.distance.value_or(0) >= 0 || options.view_all) return Done{};
   return Error{ErrorKind::kUsage,
-               "Camera distance must not be negative, unless --viewall replaces it"};
+               "Camera distance must not be negative, unless the view of all replaces it"};
 }
 
 GimbalView gimbal_view(const ViewOptions& options, const FileView& file, const Box& framed_box) {

@@ -1,18 +1,15 @@
 #include "whittle/output.h"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <cstdio>
-#include <cstdlib>
-#include <memory>
 #include <system_error>
 
+#include "base/workers.h"
 #include "host/output_file.h"
 #include "image/exr.h"
 #include "image/passes.h"
@@ -24,66 +21,6 @@ namespace {
 Error machine_error(const std::string& name, int reason) {
   return {ErrorKind::kMachine,
           fmt::format("cannot write '{}': {}", name, std::generic_category().message(reason))};
-}
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
-/// An unnamed file in memory, which libraries that want a path can write to.
-class MemoryFile {
- public:
-  MemoryFile() : descriptor_(::memfd_create("whittle", MFD_CLOEXEC)) {}
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  ~MemoryFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-
-  bool is_open() const { return descriptor_ >= 0; }
-  std::string path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
-
-  /// All of it; on failure nothing, and the reason is in errno.
-  std::optional<std::string> read() const {
-    struct stat status {};
-    if (::fstat(descriptor_, &status) != 0) return std::nullopt;
-    std::string bytes(size_t(status.st_size), '\0');
-    for (size_t at = 0; at < bytes.size();) {
-      const ssize_t got = ::pread(descriptor_, bytes.data() + at, bytes.size() - at, off_t(at));
-      if (got <= 0) return std::nullopt;
-      at += size_t(got);
-    }
-    return bytes;
-  }
-
- private:
-  int descriptor_;
-};
-
-Result<std::string> encode_png(const Picture& picture, bool with_alpha, const std::string& name) {
-  char* buffer = nullptr;
-  size_t size = 0;
-  File stream(::open_memstream(&buffer, &size));
-  if (!stream) return machine_error(name, errno);
-  const Status written = write_png(stream.get(), name, picture, with_alpha);
-  stream.reset();
-  const std::unique_ptr<char, decltype(&std::free)> owned(buffer, &std::free);
-  if (!written) return written.error();
-  return std::string(buffer, size);
-}
-
-Result<std::string> encode_exr(const Frame& frame, const Picture& picture,
-                               const std::string& name) {
-  const MemoryFile file;
-  if (!file.is_open()) return machine_error(name, errno);
-  // The library's own message would name the file in memory.
-  if (const Status written = write_exr(file.path(), frame, picture); !written) {
-    return machine_error(name, ENOMEM);
-  }
-  std::optional<std::string> bytes = file.read();
-  if (!bytes) return machine_error(name, errno);
-  return std::move(*bytes);
 }
 
 }  // namespace
@@ -114,9 +51,13 @@ Picture pass_picture(const Frame& frame, Pass pass, bool background) {
 }
 
 Result<std::string> encode(FileFormat format, const Frame& frame, const Picture& picture,
-                           bool with_alpha, const std::string& name) {
-  return format == FileFormat::kPng ? encode_png(picture, with_alpha, name)
-                                    : encode_exr(frame, picture, name);
+                           bool with_alpha, const std::string& name, int threads) {
+  const Workers workers(threads);
+  if (format == FileFormat::kPng) return encode_png(picture, with_alpha, &workers);
+  Result<std::string> bytes = encode_exr(frame, picture, &workers);
+  if (bytes) return bytes;
+  return Error{bytes.error().kind,
+               fmt::format("cannot write '{}': {}", name, bytes.error().message)};
 }
 
 Status write_standard_output(std::string_view bytes) {

@@ -21,9 +21,10 @@ Result<FileFormat> format_of(std::string_view path);
 Picture pass_picture(const Frame& frame, Pass pass, bool background);
 
 /// The file's bytes. A PNG shows `picture`, with alpha if asked for; an EXR holds it and the facts
-/// (docs/whittle.1.md). `name` is for messages; errors are kMachine.
+/// (docs/whittle.1.md). They do not depend on the threads (0: all). `name` is for messages; errors
+/// are kMachine.
 Result<std::string> encode(FileFormat format, const Frame& frame, const Picture& picture,
-                           bool with_alpha, const std::string& name);
+                           bool with_alpha, const std::string& name, int threads = 0);
 
 /// Writes to standard output; errors are kMachine. Nothing else may be buffered for it.
 Status write_standard_output(std::string_view bytes);

@@ -135,7 +135,7 @@ Result<Renderer> Renderer::make(const Model& model, const RendererSettings& sett
   if (Status chosen = state->choose_backend(); !chosen) return chosen.error();
   const Stopwatch watch;
   state->looks = appearances(model);
-  Result<Scene> scene = lower(model);
+  Result<Scene> scene = lower(model, &state->workers);
   if (!scene) return scene.error();
   state->scene = std::move(*scene);
   state->times.lower = watch.milliseconds();

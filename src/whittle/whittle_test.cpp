@@ -164,11 +164,11 @@ TEST(Solid, RefusesWhatPassesALimit) {
   };
   LoadOptions depth, nodes, values, facets;
   depth.limits.depth = 0;
-  EXPECT_NE(refusal(depth).find("--limit depth"), std::string::npos);
+  EXPECT_NE(refusal(depth).find("the limit 'depth' can be raised"), std::string::npos);
   nodes.limits.nodes = 1;
-  EXPECT_NE(refusal(nodes).find("--limit nodes"), std::string::npos);
+  EXPECT_NE(refusal(nodes).find("the limit 'nodes' can be raised"), std::string::npos);
   values.limits.values = 3;
-  EXPECT_NE(refusal(values).find("--limit values"), std::string::npos);
+  EXPECT_NE(refusal(values).find("the limit 'values' can be raised"), std::string::npos);
   facets.limits.facets = 5;
   EXPECT_NO_THROW(Solid::parse("cube(1);", "t", facets));
   EXPECT_THROW(Solid::parse("cylinder($fn = 4);", "t", facets), Failure);

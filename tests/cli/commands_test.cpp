@@ -130,12 +130,35 @@ TEST_F(Info, ADrawingIsCalledOne) {
   EXPECT_EQ(Json::parse(good({"info", "part.csg", "--json"}).out)["drawing"], false);
 }
 
+TEST_F(Info, ThePlateOfTheGuideHasAFlushFace) {
+  // docs/README.md follows a ray through it.
+  const RunSettings plate{
+      .in =
+          "difference() {\n  cube([30, 20, 10]);\n"
+          "  multmatrix([[1,0,0,20],[0,1,0,10],[0,0,1,10],[0,0,0,1]]) sphere(6, $fn = 0);\n"
+          "  multmatrix([[1,0,0,4],[0,1,0,5],[0,0,1,5],[0,0,0,1]]) cube([6, 10, 5]);\n}\n"};
+  const Json info = Json::parse(good({"info", "-", "--json"}, plate).out);
+  EXPECT_EQ(info["faces"], 13);
+  EXPECT_EQ(info["half_spaces"], 12);
+}
+
+TEST_F(Info, TheSolidsBoxIsThatOfWhatIsLeft) {
+  const RunSettings half{.in = "difference() { cube(10); translate([-1, -1, 5]) cube(12); }"};
+  const Json info = Json::parse(good({"info", "-", "--json"}, half).out);
+  EXPECT_EQ(info["bounds"]["hi"], Json({10.0, 10.0, 10.0}));
+  EXPECT_NEAR(info["solid_box"]["hi"][0].get<double>(), 10, 1e-5);
+  EXPECT_NEAR(info["solid_box"]["hi"][2].get<double>(), 5, 1e-5);
+  EXPECT_NE(good({"info", "-"}, half).out.find("solid's box  [0, 0, 0] to [10, 10, 5]\n"),
+            std::string::npos);
+}
+
 TEST_F(Info, UnboundedAndEmptySolidsAreCalledSo) {
   const RunSettings unbounded{.in = "halfspace(n = [0, 0, 1], d = 3);"};
   const Json open = Json::parse(good({"info", "-", "--json"}, unbounded).out);
   EXPECT_EQ(open["file"], "<stdin>");
   EXPECT_EQ(open["bounded"], false);
   EXPECT_NE(good({"info", "-"}, unbounded).out.find("unbounded"), std::string::npos);
+  EXPECT_TRUE(open["solid_box"].is_null());
   const Json empty = Json::parse(good({"info", "-", "--json"}, {.in = "cube(0);"}).out);
   EXPECT_TRUE(empty["bounds"].is_null());
 }
@@ -263,11 +286,12 @@ TEST_F(Bench, JsonIsAnArrayWithAnObjectAFile) {
     EXPECT_EQ(one["half_spaces"], 9);
     EXPECT_EQ(one["wrong"], 0);
     for (const char* name :
-         {"parse_ms", "lower_ms", "subdivide_ms", "trace_ms", "shade_ms", "cold_ms",
+         {"parse_ms", "lower_ms", "subdivide_ms", "trace_ms", "shade_ms", "cold_ms", "file_ms",
           "peak_memory_bytes", "cells", "leaves", "leaf_visits_per_ray", "cell_visits_per_ray",
           "literals_per_ray", "checked"})
       EXPECT_GT(one[name].get<double>(), 0) << name;
     EXPECT_GE(one["cold_ms"].get<double>(), one["trace_ms"].get<double>() / 2);
+    EXPECT_GE(one["file_ms"].get<double>(), one["trace_ms"].get<double>() / 2);
     EXPECT_EQ(one["paper_ms"]["S"], one["subdivide_ms"]);
     EXPECT_EQ(one["paper_ms"]["T"], one["trace_ms"]);
     EXPECT_EQ(one["paper_ms"]["cold"], one["cold_ms"]);
@@ -276,7 +300,8 @@ TEST_F(Bench, JsonIsAnArrayWithAnObjectAFile) {
 
 TEST_F(Bench, TheTableNamesTheStages) {
   const Ended done = good({"bench", "part.csg", "--repeat", "1", "--imgsize", "32,32"});
-  for (const char* stage : {"parse", "lower", "subdivide", "trace", "shade", "cold", "memory"})
+  for (const char* stage :
+       {"parse", "lower", "subdivide", "trace", "shade", "cold", "file", "memory"})
     EXPECT_NE(done.out.find(stage), std::string::npos) << stage;
 }
 

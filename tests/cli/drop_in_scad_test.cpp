@@ -188,7 +188,7 @@ TEST_F(DropIn, TheProgramIsChosen) {
   EXPECT_EQ(named.exit_code, 3);
   EXPECT_EQ(named.err,
             "whittle: any.scad: error: there is no program 'no-openscad' on PATH to evaluate it "
-            "(--openscad names it)\n");
+            "(the options name it)\n");
 }
 
 TEST_F(DropIn, OpenscadIsToldWhatConcernsIt) {

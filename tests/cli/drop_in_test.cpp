@@ -29,9 +29,26 @@ TEST_F(DropIn, HardWarningsEndTheRun) {
   EXPECT_EQ(own.err,
             "odd.csg:1:9: warning: cube: the argument 'length' is not known; it is ignored "
             "(--hardwarnings)\n");
+  write("noisy.scad", "no_such_module(); cube();");
+  const Ended openscads = run({"noisy.scad", "-o", "x.png", "--hardwarnings"});
+  EXPECT_EQ(openscads.exit_code, 1);
+  EXPECT_NE(openscads.err.find("openscad: WARNING: "), std::string::npos) << openscads.err;
+  EXPECT_NE(openscads.err.find(" (--hardwarnings)\n"), std::string::npos) << openscads.err;
   write("echo.scad", "echo(\"this is none\"); cube();");
   good({"echo.scad", "-o", "y.png", "--hardwarnings", "--imgsize", "8,8"});
   EXPECT_FALSE(fs::exists(path("x.png")));
+}
+
+TEST_F(DropIn, StrictRefusesWhateverIsNotShown) {
+  write("missing.csg", "cube(1);\nimport(\"none.stl\");");
+  EXPECT_EQ(run({"missing.csg", "-o", "x.png", "--imgsize", "8,8"}).exit_code, 0);
+  const Ended missing = run({"missing.csg", "-o", "x.png", "--strict"});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_EQ(missing.err, "missing.csg:2:1: error: there is no file none.stl (--strict)\n");
+  write("noisy.scad", "no_such_module(); cube();");
+  const Ended openscads = run({"noisy.scad", "-o", "x.png", "--strict"});
+  EXPECT_EQ(openscads.exit_code, 1);
+  EXPECT_NE(openscads.err.find("openscad: WARNING: "), std::string::npos) << openscads.err;
 }
 
 TEST_F(DropIn, WhatChangesNoPictureIsSilent) {
@@ -92,7 +109,8 @@ TEST_F(DropIn, ViewAllReplacesADistance) {
     std::vector<std::string> arguments = start;
     arguments.insert(arguments.end(), {"part.csg", "--camera=-1,-1,-1,90,0,0,-1"});
     if (start.empty() || start[0] == "cells") arguments.insert(arguments.end(), {"-o", "x.png"});
-    expect_refused(arguments, "Camera distance must not be negative, unless --viewall replaces it");
+    expect_refused(arguments,
+                   "Camera distance must not be negative, unless the view of all replaces it");
   }
 }
 
@@ -190,6 +208,8 @@ TEST_F(DropIn, InputsOfOtherKindsAreCalledWhatTheyAre) {
   expect_called("x.csg.gz", std::string("\x1f\x8b\x08\x00", 4), gzip);
   expect_called("x.csg", std::string("\x1f\x8b\x08\x00", 4), gzip);
   expect_called("x.scad", std::string("\x1f\x8b\x08\x00", 4), gzip);
+  expect_called("x.stl", std::string("\x1f\x8b\x08\x00", 4), gzip);
+  expect_called("x.svg", std::string("\x1f\x8b\x08\x00", 4), gzip);
   expect_called("x.bz2", "BZh91AY&SY", "compressed by bzip2; unpack it first (bunzip2)");
   expect_called("x.model", "solid a\n facet normal 0 0 1\n",
                 "a mesh (STL); its name has to end in .stl");

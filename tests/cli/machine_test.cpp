@@ -90,7 +90,7 @@ TEST_F(Machine, RunningOutOfMemoryIsSaidWithTheLimitThatEndedIt) {
 }
 
 TEST_F(Machine, RunningOutOfMemoryIsSaidWhereNoThreadCanStart) {
-  // oneTBB starts them, and throws from where nobody can catch it.
+  // Those that can start take what memory there is for their stacks.
   const Ended done = run({"part.csg", "-o", "x.png", "--threads", "1000", "--limit", "memory=64M"});
   EXPECT_EQ(done.exit_code, 3);
   EXPECT_EQ(done.err.substr(0, 9), "whittle: ") << done.err;

@@ -53,6 +53,14 @@ TEST_F(Usage, AFileIsRequired) {
   EXPECT_EQ(missing.err, "whittle: FILE is required\nTry 'whittle --help'.\n");
 }
 
+TEST_F(Usage, AWordThatIsNoFileIsNoCommandEither) {
+  const Ended typo = run({"rander", "-o", "x.png"});
+  EXPECT_EQ(typo.exit_code, 2);
+  EXPECT_EQ(typo.err,
+            "whittle: there is neither a file nor a command 'rander'; commands are: info, cells, "
+            "compare, bench, model, devices\nTry 'whittle --help'.\n");
+}
+
 TEST_F(Usage, WithoutAnOutputItSaysThatThereIsNoWindow) {
   const Ended missing = run({"part.csg"});
   EXPECT_EQ(missing.exit_code, 2);
@@ -142,6 +150,7 @@ TEST_F(Usage, AnOptionWithoutItsValueIsNamed) {
 
 TEST_F(Usage, WrongNumbersAreRefused) {
   expect_refused({"--imgsize", "64"}, "--imgsize: wants 2 numbers, not 1 ('64')");
+  expect_refused({"--imgsize", "64x64"}, "--imgsize: wants W,H as in 800,600, not 64x64");
   expect_refused({"--imgsize", "64,64,3"}, "--imgsize: wants 2 numbers, not 3 ('64,64,3')");
   expect_refused({"--imgsize", "64,x"}, "--imgsize: 'x' is not a number");
   expect_refused({"--imgsize", "64,1.5"}, "--imgsize: wants whole numbers, not 64,1.5");

@@ -157,6 +157,8 @@ std::string digest(const Result<Read>& read) {
     d.number(x.has_value()), d.number(x.value_or(0));
   for (const std::string& warning : read->warnings) d.text(warning);
   d.text(read->unsupported ? read->unsupported->message : "");
+  d.text(read->refusal);
+  for (const WordCount& count : read->counts.words) d.text(count.word), d.number(count.count);
   return d.take();
 }
 
@@ -287,6 +289,10 @@ void check(std::string_view text) {
   const ReadOptions limits = small_limits(Curves(text.size() % 3));
   const Result<Read> read = read_csg(text, kFile, limits);
   require(digest(read) == digest(read_csg(text, kFile, limits)), "read again it is another");
+  ReadOptions in_pieces = limits;
+  in_pieces.piece_bytes = 1 + text.size() % 50;
+  in_pieces.threads = 1;
+  require(digest(read) == digest(read_csg(text, kFile, in_pieces)), "in pieces it is another");
   if (!read) {
     const std::string& message = read.error().message;
     require(read.error().kind == ErrorKind::kInput, "a mistake of another kind: " + message);

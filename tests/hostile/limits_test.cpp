@@ -45,7 +45,7 @@ TEST_F(LimitsOfFiles, AreNamedWithTheirValueAndTheWayToRaiseThem) {
                "raises it");
   expect_limit("cylinder($fn = 6);", "facets", 7,
                ":1:1: error: with this shape the model has 8 facets, more than the limit of 7; a "
-               "smaller $fn gives fewer, --curves smooth none, --limit facets=N raises it");
+               "smaller $fn gives fewer, smooth curves none; --limit facets=N raises it");
 }
 
 TEST_F(LimitsOfFiles, CanBeGivenTogetherAndForEveryCommandThatReads) {

@@ -14,8 +14,9 @@ namespace {
 
 constexpr int kTileWidth = 16, kTileHeight = 16;  ///< pixels; a tile's rays walk together
 constexpr int kBlock = 32;                        ///< pixels a task; small enough to balance
-constexpr size_t kProbeChunk = 256;               ///< positions a task
-constexpr size_t kProbeRays = 64;  ///< that walk together: they are not all next to one another
+constexpr size_t kProbeChunk = 1024;              ///< positions a task
+constexpr size_t kProbeRays = 64;  ///< that walk together wherever they are, and more if they are
+constexpr float kProbePixels = 8;  ///< all within so many pixels, both ways
 static_assert(kTileWidth * kTileHeight == kTileRays);
 
 /// Every other bit of `i`: a number along the Z-order curve is x in the even bits, y in the odd.
@@ -85,13 +86,17 @@ class CpuTracerImpl final : public CpuTracer {
       std::fill(hits.begin(), hits.end(), Hit{});
       return;
     }
-    workers_.for_parts(
-        positions.size(), kProbeChunk, [&](size_t first, size_t last, size_t worker) {
-          LaneScratch& scratch = scratches_.of(worker, lanes_);
-          for (size_t i = first; i < last; i += kProbeRays)
-            trace_lanes(lanes_, camera, positions.subspan(i, std::min(kProbeRays, last - i)),
-                        kInOrder.place.data(), &hits[i], scratch);
-        });
+    workers_.for_parts(positions.size(), kProbeChunk,
+                       [&](size_t first, size_t last, size_t worker) {
+                         LaneScratch& scratch = scratches_.of(worker, lanes_);
+                         for (size_t i = first; i < last;) {
+                           const auto left = positions.subspan(i, last - i);
+                           const size_t count = close_together(left);
+                           trace_lanes(lanes_, camera, left.first(count), kInOrder.place.data(),
+                                       &hits[i], scratch);
+                           i += count;
+                         }
+                       });
   }
 
   void cast(std::span<const Ray> rays, std::span<Hit> hits) override {
@@ -142,6 +147,21 @@ class CpuTracerImpl final : public CpuTracer {
     }
     std::span<const PixelPosition> positions() const { return std::span(position).first(count); }
   };
+
+  /// How many of the positions, from the first on, had better walk together; no more than a tile.
+  static size_t close_together(std::span<const PixelPosition> positions) {
+    const size_t most = std::min(kTileRays, positions.size());
+    PixelPosition low = positions[0], high = low;
+    for (size_t i = 1; i < most; ++i) {
+      const PixelPosition p = positions[i];
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+      const bool is_close = high.x - low.x <= kProbePixels && high.y - low.y <= kProbePixels;
+      // Packets are full, but for the last.
+      if (i >= kProbeRays && !is_close) return i - i % kMaxLanes;
+    }
+    return most;
+  }
 
   static int parts(int pixels, int of) { return (pixels + of - 1) / of; }
 

@@ -2,9 +2,9 @@
 // in double precision, on all threads.
 //
 // Based on: the paper, section 3 (ray-tracing inside a cell, clipped to it). What we changed: no
-// cell is rasterised, rays walk the tree; a leaf may hold any number of half-spaces; what a ray
-// found out before a cell (in the solid or not) is carried into it, so a surface that lies on a
-// cell's side is found once and never lost.
+// cell is rasterised, rays walk the tree; a leaf may hold any number of half-spaces; a ray carries
+// into a cell whether it is in the solid, so a surface that lies on a cell's side is found once and
+// never lost.
 #pragma once
 
 #include <memory>
@@ -29,10 +29,10 @@ class CpuTracer : public Tracer {
  public:
   virtual TraceStats stats() const = 0;
 
-  /// As render(), and keeps for every ray that hits something in which leaf that is.
+  /// As render(), and remembers for every ray that hits something the leaf in which it does.
   virtual Frame record(const Camera& camera) = 0;
   /// The same frame from what record() kept of the same camera: no ray has to look for its leaf.
-  /// The time that this takes is the limit of what a better walk could reach.
+  /// No walk through the cells, however good, can make render() faster than this.
   virtual Frame replay(const Camera& camera) = 0;
 };
 std::unique_ptr<CpuTracer> make_cpu_tracer(const Scene& scene, const CellTree& cells,

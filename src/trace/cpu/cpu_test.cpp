@@ -282,6 +282,33 @@ TEST(Cpu, StopsWhenItIsAskedTo) {
   EXPECT_EQ(parts, 1);
 }
 
+TEST(Cpu, AProbeSeesTheSameWhateverIsProbedBesideIt) {
+  // Many positions in few pixels, then some far from them, as at a picture's edges.
+  Traced model("difference(){cube(10, center = true); sphere(6.5);} cylinder(r=1,h=20);");
+  Camera camera = camera_along({20, 30, 25}, {-20, -30, -25});
+  camera.width = 61, camera.height = 43;
+  camera.half_height = 0.3;
+  std::vector<PixelPosition> positions;
+  for (int i = 0; i < 1500; ++i) {
+    const int far = i % 400 < 300 ? 0 : i % 7 * 8;
+    positions.push_back({float(i % 4 + far) + 0.1f * float(i / 4 % 10),
+                         float(20 + i / 40 % 5) + 0.2f * float(i % 5)});
+  }
+  std::vector<Hit> hits(positions.size());
+  for_every_instruction_set([&] {
+    model.tracer->probe(camera, positions, hits);
+    size_t seen = 0;
+    for (size_t i = 0; i < positions.size(); ++i) {
+      Hit alone;
+      model.tracer->probe(camera, std::span(positions).subspan(i, 1), std::span(&alone, 1));
+      ASSERT_EQ(std::memcmp(&alone, &hits[i], sizeof(Hit)), 0) << i;
+      seen += alone.hit();
+    }
+    EXPECT_GT(seen, 10u);
+    EXPECT_LT(seen, positions.size());
+  });
+}
+
 TEST(Cpu, WhatWasRecordedIsSeenAgain) {
   for (const uint64_t seed : {2, 9}) {
     const Model model = model_of(random_tree(seed, {.primitives = 30}));

@@ -22,7 +22,8 @@ LaneScene::LaneScene(const Scene& scene_, const CellTree& tree_, const Workers* 
     : scene(scene_),
       tree(tree_),
       edge(max_component(scene.region.size())),
-      together(whittle::together({scene.region.lo + scene.origin, scene.region.hi + scene.origin})),
+      ray_tolerance(
+          whittle::ray_tolerance({scene.region.lo + scene.origin, scene.region.hi + scene.origin})),
       half_spaces(scene.half_spaces.size()) {
   const double half_margin = 0.5 * kCellMargin * edge;
   const Vec3 grown = {half_margin, half_margin, half_margin};

@@ -277,7 +277,7 @@ class Walk {
   void leaf(CellLink cell, const Planes& planes, uint64_t packets) {
     Visitors& visitors = leaves_.visitors;
     visitors.count = 0;
-    if (cell.kind() >= CellKind::kConjunction) {
+    if (is_leaf(cell.kind())) {
       // It arrives while is worked out who passes.
       const char* const block = static_cast<const char*>(cell.target());
       hwy::Prefetch(block);

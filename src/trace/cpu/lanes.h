@@ -1,5 +1,6 @@
-// Rays in vector lanes: tiles of rays that walk through the cells together, as many rays at once as
-// a vector holds doubles. The instruction set is chosen at run time; every one gives the same bits.
+// Rays in vector lanes. A tile of rays walks through the cells as one; its rays are computed in
+// packets, as many at once as a vector holds doubles. The instruction set is chosen at run time,
+// and all give the same bits.
 #pragma once
 
 #include <array>
@@ -29,20 +30,20 @@ struct LaneScene {
 
   const Scene& scene;
   const CellTree& tree;
-  double edge;      ///< the longest of the region
-  double together;  ///< crossings closer than this happen together
-  Box clip;         ///< rays are cut to it: the region and half the margin
+  double edge;           ///< the longest of the region
+  double ray_tolerance;  ///< crossings closer than this coincide
+  Box clip;              ///< rays are cut to it: the region and half the margin
   UninitializedVector<LaneHalfSpace> half_spaces;  ///< by number
   /// False: every ray is solved by itself, by LeafSolver, whose answers lanes must have. For tests.
   bool solves_in_lanes = true;
 };
 
 inline constexpr size_t kMaxLanes = 8;
-inline constexpr size_t kTileRays = 256;  ///< rays that walk together, at most
-inline constexpr size_t kGroupRays = 64;  ///< of them, that are solved together, at most
+inline constexpr size_t kTileRays = 256;  ///< rays in a tile, at most
+inline constexpr size_t kGroupRays = 64;  ///< of them, in a group that is solved in one go, at most
 
-/// Of leaves with more literals than this, long ones, nothing is kept but signs: what is needed
-/// again is computed again.
+/// A leaf with more literals than this is long: of its literals nothing is kept but signs, and the
+/// rest is computed again where it is needed.
 inline constexpr size_t kKeptLiterals = 16;
 
 /// f of one half-space along the rays of a group.
@@ -74,8 +75,9 @@ struct LeafRecord {
 /// Of the rays of one tile.
 using TileRecord = std::vector<LeafRecord>;
 
-/// The hits of the rays through `positions`, at most kTileRays, which had better be close to one
-/// another. That of positions[i] is written to hits[places[i]]. If there is a record, it is filled.
+/// Traces the rays through `positions`, at most kTileRays; it is fast if they are close to one
+/// another. The hit of positions[i] is written to hits[places[i]]. Fills the record, if there is
+/// one.
 void trace_lanes(const LaneScene& scene, const Camera& camera,
                  std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
                  LaneScratch& scratch, TileRecord* record = nullptr);

@@ -281,7 +281,7 @@ inline void LeavesInLanes::find_roots(size_t literals) {
   }
 }
 
-/// Decides what is plain. Returns the lanes that are not: where crossings happen together, where
+/// Decides what is plain. Returns the lanes that are not: where crossings coincide, where
 /// the leaf disagrees with what is known, where a surface has several owners, and where numbers
 /// overflow.
 template <bool kHasTable>
@@ -329,7 +329,7 @@ inline uint32_t LeavesInLanes::solve_in_lanes(CellKind kind, const Leaf& leaf, s
     becomes(packet, none, solid);
     open &= ~none;
     if (open == 0) return delicate & open_[visitor];
-    delicate |= open & bits(hn::Le(second, first + set(scene_.together)));
+    delicate |= open & bits(hn::Le(second, first + set(scene_.ray_tolerance)));
     open &= ~delicate;
     state = hn::Xor(state, flip);
     const uint32_t after = solid_in(state), met = open & (after ^ solid);

@@ -20,7 +20,8 @@ constexpr size_t kFewCrossings = 32;
 
 LeafSolver::LeafSolver(const Scene& scene)
     : scene_(scene),
-      together_(together({scene.region.lo + scene.origin, scene.region.hi + scene.origin})) {}
+      ray_tolerance_(
+          ray_tolerance({scene.region.lo + scene.origin, scene.region.hi + scene.origin})) {}
 
 void LeafSolver::add_crossings(uint32_t number, const LiteralOnRay& literal, double t0, double t1) {
   const auto add = [&](bool rising) {
@@ -148,7 +149,7 @@ bool LeafSolver::first_change(const LocalRay& ray, Inside& inside, Change& chang
     const double t = crossings_[i].t;
     // The first one in any case: where numbers overflow, t may be none.
     do flip(crossings_[i].literal);
-    while (++i < crossings_.size() && crossings_[i].t <= t + together_);
+    while (++i < crossings_.size() && crossings_[i].t <= t + ray_tolerance_);
     const bool after = value();
     if (after == solid_) continue;
     const std::span<Crossing> group(&crossings_[first], i - first);

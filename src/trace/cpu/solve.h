@@ -83,8 +83,8 @@ class LeafSolver {
   Change change_at_start(const LocalRay& ray, double t0, uint32_t nearest);
 
   /// Finds the first t in (t0, t1] at which the solid in the leaf taken changes. Otherwise false,
-  /// and `inside` tells the value at t1. Crossings at equal t, or nearly so (together()), happen
-  /// together.
+  /// and `inside` tells the value at t1. Crossings at equal t, or nearly so (ray_tolerance()),
+  /// coincide.
   bool first_change(const LocalRay& ray, Inside& inside, Change& change);
 
   /// The owner (id) of a change by the crossing of one literal alone, in a leaf with a truth table;
@@ -106,9 +106,9 @@ class LeafSolver {
   void flip(uint32_t literal);
   bool value();
   bool program_value();
-  /// Of the crossings that just happened together and changed the solid, the number of the first
-  /// that it would not have changed without, or that would have done alone: surfaces that are no
-  /// part of the solid here may be among them. 0 if there is none such.
+  /// Of a group of coincident crossings that changed the solid, the number of the decisive one: the
+  /// first without which the solid would not have changed, or which alone would have changed it.
+  /// (Surfaces that are no part of the solid here may be in the group.) 0 if there is none.
   size_t decisive(std::span<const Crossing> group);
   /// The first crossing of the group tells the owner, unless it has several.
   Change describe(const LocalRay& ray, double t, std::span<const Crossing> group,
@@ -128,7 +128,7 @@ class LeafSolver {
 
   const Scene& scene_;
   std::array<KnownOwner, kKnownOwners> known_owners_;
-  const double together_;  ///< crossings closer than this happen together
+  const double ray_tolerance_;  ///< crossings closer than this coincide
   CellKind kind_ = CellKind::kTable;
   const Leaf* leaf_ = nullptr;
   std::vector<uint8_t> is_inside_;   ///< by literal: inside the half-space itself, at this point
@@ -136,8 +136,8 @@ class LeafSolver {
   bool solid_ = false;               ///< at t0
   uint64_t state_ = 0;               ///< kTable: the bits of is_inside_
   uint32_t count_ = 0;               ///< conjunction, disjunction: literals that are true
-  // kProgram: a value follows from the literals on the way to it, so that only from the first of
-  // them that flips on is the way looked for again.
+  // kProgram: the answer depends on the literals on the path to it alone. When one of them flips,
+  // the program runs again from the first step that looks at it.
   std::vector<uint32_t> path_;     ///< the steps on the way
   std::vector<uint32_t> on_path_;  ///< by literal: where it stands there first, if it does
   size_t known_ = 0;               ///< steps that are right

@@ -37,7 +37,7 @@ class OracleTracer final : public Tracer {
       : instances_(instances(model)),
         tree_(make_boolean_tree(model)),
         bounds_(bounds(model)),
-        together_(together(view_region(bounds_))),
+        ray_tolerance_(ray_tolerance(view_region(bounds_))),
         surfaces_(name_surfaces(model, instances_)),
         workers_(threads) {
     for (uint32_t leaf = 0; leaf < instances_.size(); ++leaf) {
@@ -102,8 +102,8 @@ class OracleTracer final : public Tracer {
     // across the surface, which along a flat ray is farther.
     const auto is_passed = [&](const Crossing& c) {
       return c.t <= start ||
-             (c.t - start <= 1e6 * together_ &&
-              (c.t - start) * std::fabs(dot(c.normal, ray.direction)) <= 10 * together_);
+             (c.t - start <= 1e6 * ray_tolerance_ &&
+              (c.t - start) * std::fabs(dot(c.normal, ray.direction)) <= 10 * ray_tolerance_);
     };
 
     BooleanState& state = scratch.state;
@@ -132,7 +132,7 @@ class OracleTracer final : public Tracer {
       // Surfaces that are one are crossed at one t; others may be but for rounding, which grows
       // with the eye's distance.
       const double t = crossings[begin].t;
-      const double last = t + together_ + 1e-15 * std::fabs(t);
+      const double last = t + ray_tolerance_ + 1e-15 * std::fabs(t);
       if (t > end) break;
       state.begin_step();
       size_t group_end = begin;
@@ -158,7 +158,7 @@ class OracleTracer final : public Tracer {
   std::vector<Instance> instances_;
   BooleanTree tree_;
   Bounds bounds_;
-  double together_;
+  double ray_tolerance_;
   Surfaces surfaces_;  ///< of those instances that are not empty
   Workers workers_;
   std::vector<uint32_t> ids_;      ///< of the instances

@@ -55,7 +55,7 @@ class Namer {
   Namer(const Model& model, std::span<const Instance> instances) {
     const Bounds b = bounds(model);
     region_ = view_region(b);
-    together_ = together(region_);
+    ray_tolerance_ = ray_tolerance(region_);
     const double model_tolerance = tolerance(b);
     out_.faces_before.push_back(0);
     for (const Instance& instance : instances) {
@@ -81,7 +81,7 @@ class Namer {
                 .extent = within(extent(shape, world_from_object), region_),
                 .tolerance = 0,
                 .outline = {}};
-    solid.tolerance = own_tolerance(model_tolerance, solid.extent, together_);
+    solid.tolerance = own_tolerance(model_tolerance, solid.extent, ray_tolerance_);
     out_.frames.push_back(
         {solid.object_from_world, solid.object_from_world.point(solid.extent.center)});
     if (!is_flat(shape)) {
@@ -135,7 +135,7 @@ class Namer {
   /// A face of the last solid: on an earlier surface, if it was written to be, or on a new one.
   void add_face(Surface surface, const WorldPlane& at) {
     const Solid& solid = solids_.back();
-    const double fine = equal_tolerance(solid.tolerance, together_);
+    const double fine = equal_tolerance(solid.tolerance, ray_tolerance_);
     // Equal planes are equal everywhere, not only where one of the primitives is.
     const Extent everywhere = {region_.center(), 0.5 * region_.diagonal(), 0};
     const auto same_as = [&](const Written& known) -> std::optional<bool> {
@@ -161,7 +161,7 @@ class Namer {
 
   /// Finds the surface that all these faces lie on.
   void merge(const Written& written) {
-    const double tolerance = joint_tolerance(written.largest, written.extent.width, together_);
+    const double tolerance = joint_tolerance(written.largest, written.extent.width, ray_tolerance_);
     for (uint32_t i = 0; i < known_.size(); ++i)
       if (move_onto(i, written, std::min(tolerance, known_[i].tolerance))) return;
     for (const uint32_t face : written.faces) out_.faces[face].surface = uint32_t(known_.size());
@@ -210,7 +210,7 @@ class Namer {
   }
 
   Box region_;
-  double together_ = 0;
+  double ray_tolerance_ = 0;
   Surfaces out_;
   std::vector<Solid> solids_;
   std::vector<uint32_t> solid_of_;  ///< one a face

@@ -1,5 +1,5 @@
-// What the pipelines read and write: one descriptor set, and the buffers whose kind the device's
-// way to read decides.
+// What the pipelines read and write: one descriptor set, and the buffers that are texel or storage
+// buffers, whichever the device reads faster.
 #pragma once
 
 #include "gpu/memory.h"

@@ -1,4 +1,4 @@
-// Cells are refined on one side, while they are drawn on the other.
+// Cells are refined on one thread while another draws those that are ready.
 #pragma once
 
 #include <condition_variable>
@@ -11,8 +11,8 @@
 
 namespace whittle {
 
-/// A CellSupply's stream, from a thread of its own. It is at most one batch ahead: what has been
-/// drawn tells it what need not be refined at all.
+/// A CellSupply's stream, which runs on a thread of its own. It is at most one batch ahead of the
+/// drawing, because what has been drawn tells it what need not be refined at all.
 class CellStream {
  public:
   /// Until it ends, nobody else may use the supply. The arguments must outlive it.
@@ -23,7 +23,7 @@ class CellStream {
 
   /// Waits for the next batch. Not after the last, nor after an error. Throws what refining threw.
   Result<CellBatch> next();
-  /// From now on, what this hides need not come.
+  /// Cells that are hidden by this need not be refined from now on.
   void hide(CellSupply::Solved solved);
 
  private:

@@ -14,7 +14,7 @@ constexpr size_t kJobsAtOnce = 16;
 
 /// Whether a cell has a place in the host's tree.
 bool has_place(CellKind kind) {
-  return kind == CellKind::kNode || (kind >= CellKind::kConjunction && kind != CellKind::kOpen);
+  return kind == CellKind::kNode || is_leaf(kind);
 }
 
 /// Whether something of the cell or below it has.
@@ -23,7 +23,7 @@ bool may_show(CellLink link) {
   while (!links.empty()) {
     const CellLink now = links.back();
     links.pop_back();
-    if (now.kind() >= CellKind::kConjunction) return true;
+    if (is_leaf(now.kind()) || now.kind() == CellKind::kOpen) return true;
     if (now.kind() == CellKind::kNode)
       links.insert(links.end(), {now.children()[1].link(), now.children()[0].link()});
   }

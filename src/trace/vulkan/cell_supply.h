@@ -13,7 +13,7 @@
 
 namespace whittle {
 
-/// Cells that go to the device together, behind those that have gone before.
+/// Cells that are sent to the device in one go, and stored behind those that were sent before.
 struct CellBatch {
   std::vector<uint32_t> cells, words;  ///< as in FlatCells
   std::vector<VisibleCell> visible;    ///< of them, in the order in which rays meet them
@@ -32,8 +32,9 @@ class CellSupply {
   /// Nothing of it has been looked at, and there is something to be refined.
   bool is_open() const;
   /// To be called before the others when a threshold may have moved (subdivide/threshold.h). Cells
-  /// that have gone stay gone: those that are out of use are set aside, and found again when they
-  /// are wanted; what is new is open. So no cell goes twice, and the tree bounds how many do.
+  /// that were sent stay on the device. Those that are out of use are set aside, and found again
+  /// when they are wanted; what is new is open. So no cell is sent twice, and the size of the tree
+  /// bounds how many are sent.
   void follow();
 
   /// All that the tile may see, or everything if there is none; in no order. Precondition of this
@@ -63,7 +64,7 @@ class CellSupply {
     Place place;
     uint32_t depth;
   };
-  /// A batch ends when it has taken so long, or with everything.
+  /// When a batch ends: after some time, or only with everything.
   Status deliver(const Sight* sight, double milliseconds, const std::function<Solved()>& solved,
                  const Take& take);
   /// A place, and the moves of the threshold that have been followed there.

@@ -1,5 +1,6 @@
-// The cells of one tile, sorted by case, and the indirect commands that draw them in two passes:
-// those that are probably seen, and of the others those that the first did not hide.
+// The cells of one tile, sorted by case, and the indirect commands that draw them in two passes.
+// The first draws the cells that are probably seen, the second those of the others that the first
+// does not hide.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +15,8 @@ namespace whittle {
 /// What is done to find cells that are hidden.
 enum class Hiding {
   kNone,       ///< all cells are drawn in the first pass
-  kPicture,    ///< those of the second are tested
-  kEverything  ///< so are those of the first: some pixels are shut, or parts were drawn before
+  kPicture,    ///< cells of the second pass are tested
+  kEverything  ///< those of both are: some pixels are shut, or parts were drawn before
 };
 
 class DrawList {

@@ -39,7 +39,8 @@ class Flattener {
             FlatPart& part)
       : scene_(scene), wanted_(wanted), refiner_(refiner), doubles_(doubles), part_(part) {}
 
-  /// From the cell down, what rays meet first first. Parents come before children.
+  /// Goes down from the cell. Of two children, the one that rays meet first comes first, and
+  /// parents come before their children.
   Status run(const Cell& cell, const Box& box) {
     struct Item {
       const Cell* cell;
@@ -71,7 +72,7 @@ class Flattener {
           (side == 0 ? half.hi : half.lo)[axis] = split;
           items.push_back({link.children() + side, half, {node, side}});
         }
-      } else if (link.kind() >= CellKind::kConjunction) {
+      } else if (is_leaf(link.kind())) {
         const auto number = uint32_t(part_.cells.size() / kCellWords);
         part_.at(now.place) = kCellBit | number;
         add_cell(now.box, link.kind(), link.leaf());

@@ -106,7 +106,7 @@ struct RandomModel {
     std::vector<Box> boxes;
     const CellTree tree = subdivide(scene, settings);
     for_each_leaf(tree, [&](CellLink link, const Box& box) {
-      if (link.kind() >= CellKind::kConjunction) boxes.push_back(box);
+      if (is_leaf(link.kind())) boxes.push_back(box);
     });
     return boxes;
   }

@@ -26,7 +26,7 @@ std::set<LeafCase> cases_of(const std::string& text, uint32_t leaf_size) {
     open.pop_back();
     if (link.kind() == CellKind::kNode)
       open.insert(open.end(), {link.children(), link.children() + 1});
-    else if (link.kind() >= CellKind::kConjunction)
+    else if (is_leaf(link.kind()))
       cases.insert(leaf_case(scene, link.kind(), link.leaf()));
   }
   return cases;

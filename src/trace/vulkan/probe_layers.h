@@ -1,5 +1,5 @@
-// Places of a picture, sorted into layers of at most one place a pixel: what one drawing can look
-// at.
+// Positions in a picture, sorted into layers with at most one position a pixel. One layer is what
+// one drawing can look at.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// A device with all that vulkan-raster needs on it, whatever the scene: it serves many tracers, and
-// shaders are compiled once.
+// A device with all that vulkan-raster needs, whatever the scene. It serves many tracers, and
+// compiles shaders once.
 #pragma once
 
 #include "base/box.h"

@@ -81,7 +81,7 @@ UINT(kViewStart, 15)
 UINT(kViewAtEye, 16)
 UINT(kViewOnSurface, 17)
 UINT(kViewAhead, 18)
-UINT(kViewTogether, 19)
+UINT(kViewRayTolerance, 19)
 // In floats:
 UINT(kViewAxisAhead, 16)
 UINT(kViewGrown, 17)

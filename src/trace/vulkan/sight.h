@@ -45,8 +45,8 @@ class Sight {
   double lo_x_, hi_x_, lo_y_, hi_y_;  ///< of the tile, at distance 1
 };
 
-/// The pixels of a tile that are known: what is farther away than all that has been drawn cannot
-/// change them.
+/// The pixels of a tile that have been solved: cells behind all that has been drawn cannot change
+/// them.
 class SolvedPixels {
  public:
   /// `seen`: 0 where nothing has been seen yet, row by row.

@@ -48,7 +48,7 @@ ViewData make_view_data(const Scene& scene, double cell_margin, const Camera& ca
     set_number(shader::kViewAtEye, kAtEye * edge);
     set_number(shader::kViewOnSurface, kOnSurface * edge);
     set_number(shader::kViewAhead, kAhead * edge);
-    set_number(shader::kViewTogether, together(world));
+    set_number(shader::kViewRayTolerance, ray_tolerance(world));
   } else {
     set_number(shader::kViewAxisAhead, ahead);
     set_number(shader::kViewGrown, 0.5 * cell_margin);

@@ -147,8 +147,8 @@ const Next kNoNext = Next(kFar);
 
 void add(inout Next next, Crossing crossing) { next.t = pmin(next.t, crossing.t); }
 
-// Crossings until then are one.
-Real end_of(Next next) { return next.t + view_together(); }
+// Crossings until then coincide with it.
+Real end_of(Next next) { return next.t + view_ray_tolerance(); }
 
 bool is_crowded(Next next) { return false; }
 

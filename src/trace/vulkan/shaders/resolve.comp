@@ -35,7 +35,7 @@ bool happens(uint i) { return (changed[i / 32] >> (i % 32) & 1) != 0; }
 
 const uint kNone = 0xffffffffu;
 
-// Of the crossings that happen together, the first that the solid would not have changed without,
+// Of the crossings that coincide, the first that the solid would not have changed without,
 // or that would have changed it alone; `size` counts them.
 uint decisive(Change change, out uint size) {
   uint first = kNone;

@@ -40,7 +40,7 @@ Vec3 view_to_axis() { return Vec3(0); }
 Real view_at_eye() { return view_number(kViewAtEye); }  // so near is at the eye
 Real view_on_surface() { return view_number(kViewOnSurface); }  // and so near on a surface
 Real view_ahead() { return view_number(kViewAhead); }  // and so far ahead it looks where it goes
-Real view_together() { return view_number(kViewTogether); }  // crossings closer than this are one
+Real view_ray_tolerance() { return view_number(kViewRayTolerance); }  // closer crossings coincide
 // Places are in the scene's local coordinates.
 Vec3 place(uvec2 x, uvec2 y, uvec2 z) { return Vec3(to_real(x), to_real(y), to_real(z)); }
 #else

@@ -37,7 +37,7 @@ Literal literal_along(uint i, bool complemented) {
 }
 
 // A surface alone is seen from either side, so its complement is the same. Two crossings that
-// happen together are none.
+// coincide are none.
 uint is_seen_alone() {
   const Literal l = literal_along(0, false);
   if (l.is_doubtful) return kDoubt;
@@ -51,8 +51,8 @@ uint is_seen_alone() {
 }
 
 // The four cases of section 3.3.4 of the paper, by which of the two is complemented. They differ in
-// what holds at the start; from there on the crossings are passed one after another, those together
-// that happen together.
+// what holds at the start. From there on the crossings are passed one after another, coincident ones
+// in one step.
 uint is_seen_pair() {
   const Literal a = literal_along(0, kFirstComplemented);
   const Literal b = literal_along(1, kSecondComplemented);
