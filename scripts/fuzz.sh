@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fuzzes the readers and the whole path to the picture (docs/testing.md):
 #
-#   scripts/fuzz.sh [--seconds N | --runs N] [--seed N] [--fast] [reader|flat|picture|mesh]
+#   scripts/fuzz.sh [--seconds N | --runs N] [--seed N] [--fast] [reader|flat|picture|mesh|boundary]
 #
 # For N seconds (60 unless said), or for N executions. They run side by side unless one is
 # named. --fast leaves the sanitizers out. Inputs that reach new code gather in build/asan/new-NAME
@@ -12,14 +12,14 @@ root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)
 source "$root/scripts/setup.sh"
 
 usage() {
-  say "usage: scripts/fuzz.sh [--seconds N | --runs N] [--seed N] [--fast] [reader|flat|picture|mesh]"
+  say "usage: scripts/fuzz.sh [--seconds N | --runs N] [--seed N] [--fast] [reader|flat|picture|mesh|boundary]"
   exit 2
 }
 
 limit=(-max_total_time=60)
 seed=0 # libFuzzer's word for one of its own choice
 preset=asan
-names=(reader flat picture mesh)
+names=(reader flat picture mesh boundary)
 while (($#)); do
   case $1 in
     --seconds | --runs | --seed)
@@ -32,7 +32,7 @@ while (($#)); do
       shift 2
       ;;
     --fast) preset=fuzz-fast && shift ;;
-    reader | flat | picture | mesh) names=("$1") && shift ;;
+    reader | flat | picture | mesh | boundary) names=("$1") && shift ;;
     *) usage ;;
   esac
 done
@@ -50,13 +50,17 @@ start() {
   local options=(-max_len=4096 "-dict=tests/fuzz/reader.dict")
   if [[ $1 == flat ]]; then options=(-max_len=1024 "-dict=tests/fuzz/flat.dict"); fi
   # Pictures are best when the models are large from the start.
-  if [[ $1 == picture ]]; then options=(-max_len=100 -len_control=0); fi
+  local corpus=$1
+  if [[ $1 == picture || $1 == boundary ]]; then
+    options=(-max_len=100 -len_control=0)
+    corpus=picture
+  fi
   if [[ $1 == mesh ]]; then options[1]=-dict=tests/fuzz/mesh.dict; fi
   # Fewer frames for each allocation and a smaller quarantine make it faster.
   export ASAN_OPTIONS=malloc_context_size=2:quarantine_size_mb=32:${ASAN_OPTIONS:-}
   export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}
   exec "$folder/tests/fuzz/$1_fuzzer" "${limit[@]}" "-seed=$seed" -rss_limit_mb=1024 -timeout=10 \
-    "${options[@]}" "-artifact_prefix=$folder/found-$1/" "$folder/new-$1" "tests/fuzz/corpus/$1" \
+    "${options[@]}" "-artifact_prefix=$folder/found-$1/" "$folder/new-$1" "tests/fuzz/corpus/$corpus" \
     </dev/null >"$folder/$1.log" 2>&1
 }
 

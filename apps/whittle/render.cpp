@@ -17,6 +17,7 @@
 #include "openscad_options.h"
 #include "option_group.h"
 #include "progress.h"
+#include "solid_files.h"
 #include "statistics.h"
 #include "summary.h"
 #include "whittle/output.h"
@@ -41,6 +42,7 @@ constexpr CommandHelp kHelp = {
     "  whittle part.csg -o part.png\n"
     "  whittle part.csg -o part.png -o facts.exr --imgsize 1920,1080\n"
     "  whittle part.csg -o top.png --camera 0,0,0,0,0,0,200 --projection ortho\n"
+    "  whittle part.csg -o part.stl\n"
     "  openscad -o - --export-format csg part.scad | whittle - -o part.png\n\n"
     "  whittle part.scad -o lid.png -D 'part=\"lid\"'\n\n"
     "Exit codes: 0 done, 1 bad input, or something in it is not shown (--lenient: 0),\n"
@@ -51,13 +53,15 @@ constexpr CommandHelp kHelp = {
 
 struct Output {
   std::string path;
-  FileFormat format;
+  FileFormat format;                 ///< of a picture
+  std::optional<SolidFormat> solid;  ///< it is none
 };
 
 struct RenderArguments {
   std::string file;
   std::vector<std::string> outputs;
   std::optional<FileFormat> export_format;
+  std::optional<SolidFormat> export_solid;
   Loading loading;
   ViewOptions view;
   ShadeSettings shading;
@@ -75,17 +79,26 @@ void add_options(CommandLine& line, RenderArguments& a) {
   CLI::App& app = line.app();
   line.add_required("FILE", a.file);
   OptionGroup output(app, "Output"), look(app, "Look"), machine(app, "Machine");
-  output.add_each("-o", "OUT", "a .png or .exr, and -o again for more; '-': standard output",
+  output.add_each("-o", "OUT",
+                  "a .png, .exr, .stl, .off or .obj, each -o one; '-': standard output",
                   [&](const std::string& path) { a.outputs.push_back(path); });
-  output.add_text("--export-format", "NAME", names_of(format_choices()) + ", whatever OUT ends in",
-                  [&](const std::string& name) {
-                    const Result<FileFormat> format = choose(format_choices(), "format", name);
-                    if (!format) {
-                      refuse("--export-format",
-                             refusal_of_format(name).value_or(format.error().message));
-                    }
-                    a.export_format = *format;
-                  });
+  output.add_text(
+      "--export-format", "NAME",
+      names_of(format_choices()) + ", " + names_of(solid_format_choices()) +
+          ", whatever OUT ends in",
+      [&](const std::string& name) {
+        a.export_format.reset();
+        a.export_solid.reset();
+        if (const Result<SolidFormat> solid = choose(solid_format_choices(), "format", name)) {
+          a.export_solid = *solid;
+          return;
+        }
+        const Result<FileFormat> format = choose(format_choices(), "format", name);
+        if (!format) {
+          refuse("--export-format", refusal_of_format(name).value_or(format.error().message));
+        }
+        a.export_format = *format;
+      });
   output.add_choice("--pass", pass_choices(), "pass", "what a PNG shows: {}",
                     [&](Pass pass) { a.pass = pass; });
   add_openscad_options(line, a.openscad);
@@ -113,21 +126,29 @@ Result<std::vector<Output>> choose_outputs(const RenderArguments& a) {
   }
   std::vector<Output> outputs;
   for (const std::string& path : a.outputs) {
-    Output output{path, FileFormat::kPng};
+    Output output{path, FileFormat::kPng, a.export_solid};
     const auto is_standard = [](const Output& other) { return other.path == "-"; };
     if (path == "-" && std::ranges::any_of(outputs, is_standard)) {
       return Error{ErrorKind::kUsage, "-o - (standard output) is given more than once"};
     }
     if (a.export_format) {
       output.format = *a.export_format;
+    } else if (a.export_solid) {
+      output.solid = a.export_solid;
+    } else if (const std::optional<SolidFormat> solid = solid_format_of(path)) {
+      output.solid = solid;
     } else if (path == "-") {
-      return Error{ErrorKind::kUsage, fmt::format("-o - (standard output) needs --export-format {}",
-                                                  names_of(format_choices(), " or "))};
+      return Error{ErrorKind::kUsage,
+                   fmt::format("-o - (standard output) needs --export-format {}, {}",
+                               names_of(format_choices()), names_of(solid_format_choices()))};
     } else {
       const Result<FileFormat> format = format_of(path);
       if (!format) {
         const std::optional<std::string> refusal = refusal_of_format(path);
-        return refusal ? Error{ErrorKind::kUsage, *refusal} : format.error();
+        return Error{ErrorKind::kUsage,
+                     refusal.value_or(fmt::format("'{}' does not end in .png, .exr, .stl, .off or "
+                                                  ".obj, so its format is not known",
+                                                  path))};
       }
       output.format = *format;
     }
@@ -186,6 +207,9 @@ Status check_possible(const RenderArguments& a, const std::vector<Output>& outpu
   }
   std::vector<std::string> paths;
   for (const Output& output : outputs) {
+    if (animation.frames > 0 && output.solid) {
+      return Error{ErrorKind::kUsage, "--animate makes pictures, .png or .exr"};
+    }
     if (animation.frames > 0 && output.path == "-") {
       return Error{ErrorKind::kUsage, "--animate makes many files; -o - is one"};
     }
@@ -247,13 +271,37 @@ struct Made {
   }
 };
 
+/// Files of the solid; what is read has facets.
+Status write_solids(RenderArguments& a, const std::vector<Output>& outputs, Made& made) {
+  Loading loading = a.loading;
+  loading.curves = curves_of_solid(loading.curves);
+  const Result<Read> read = load(a.file, loading);
+  if (!read) return read.error();
+  std::vector<SolidOutput> files;
+  for (const Output& output : outputs) files.push_back({output.path, *output.solid});
+  if (Status done = write_solid_files(read->model, files,
+                                      {a.renderer.threads, a.loading.quiet, a.wants_statistics});
+      !done) {
+    return done;
+  }
+  made.add(outputs, *read);
+  made.code = code_for(*read, loading);
+  return Done{};
+}
+
 Status render_still(RenderArguments& a, const std::vector<Output>& outputs, Made& made) {
+  std::vector<Output> pictures, solids;
+  for (const Output& output : outputs) (output.solid ? solids : pictures).push_back(output);
+  if (!solids.empty()) {
+    if (Status done = write_solids(a, solids, made); !done) return done;
+  }
+  if (pictures.empty()) return Done{};
   const Stopwatch watch;
   const Result<Read> read = load(a.file, a.loading);
   if (!read) return read.error();
-  if (Status done = render(a, outputs, read->model, watch); !done) return done;
-  made.add(outputs, *read);
-  made.code = code_for(*read, a.loading);
+  if (Status done = render(a, pictures, read->model, watch); !done) return done;
+  made.add(pictures, *read);
+  if (made.code == kExitDone) made.code = code_for(*read, a.loading);
   return Done{};
 }
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "flat/orientation.h"
-
 namespace whittle {
 
 namespace {
@@ -42,11 +40,11 @@ struct Spoke {
 
 /// Counter-clockwise, from straight down (without it) all the way round. Points are numbered by x,
 /// then by y, so those with higher numbers are to the right.
-void sort_around(std::vector<Spoke>& spokes, uint32_t middle, const std::vector<Vec2>& points) {
+void sort_around(std::vector<Spoke>& spokes, uint32_t middle, const NumberedPoints& points) {
   std::sort(spokes.begin(), spokes.end(), [&](const Spoke& a, const Spoke& b) {
     const bool left_a = a.other < middle, left_b = b.other < middle;
     if (left_a != left_b) return left_b;
-    const double turn = orientation(points[middle], points[a.other], points[b.other]);
+    const double turn = points.turn(middle, a.other, b.other);
     if (turn != 0) return turn > 0;
     // Between edges that lie on one another there is nothing of the region.
     if (a.out != b.out) return b.out;
@@ -73,10 +71,10 @@ void join(const std::vector<Spoke>& around, std::vector<uint32_t>& out_after) {
 
 }  // namespace
 
-CornerRings::CornerRings(const WeldedPolygons& polygons)
-    : CornerRings(edges_that_stay(polygons), polygons.points) {}
+CornerRings::CornerRings(const WeldedPolygons& polygons, const NumberedPoints& points)
+    : CornerRings(edges_that_stay(polygons), points) {}
 
-CornerRings::CornerRings(const std::vector<Edge>& edges, const std::vector<Vec2>& points) {
+CornerRings::CornerRings(const std::vector<Edge>& edges, const NumberedPoints& points) {
   // The spokes of each point, one after the other.
   std::vector<uint32_t> first(points.size() + 1);
   for (const Edge& edge : edges) ++first[edge.from + 1], ++first[edge.to + 1];
@@ -97,6 +95,7 @@ CornerRings::CornerRings(const std::vector<Edge>& edges, const std::vector<Vec2>
   corners_.resize(edges.size());
   for (uint32_t i = 0; i < edges.size(); ++i) {
     corners_[i].point = edges[i].from;
+    corners_[i].origin = i;
     corners_[i].next = out_after[i];
     corners_[out_after[i]].previous = i;
   }
@@ -104,8 +103,8 @@ CornerRings::CornerRings(const std::vector<Edge>& edges, const std::vector<Vec2>
 
 uint32_t CornerRings::cut(uint32_t a, uint32_t b) {
   const uint32_t rest_a = size(), rest_b = rest_a + 1;
-  corners_.push_back({corners_[a].point, rest_b, corners_[a].next});
-  corners_.push_back({corners_[b].point, corners_[b].previous, rest_a});
+  corners_.push_back({corners_[a].point, rest_b, corners_[a].next, corners_[a].origin});
+  corners_.push_back({corners_[b].point, corners_[b].previous, rest_a, corners_[b].origin});
   if (corners_[a].next == b) {
     corners_[rest_a].next = rest_b;
     corners_[rest_b].previous = rest_a;
@@ -123,12 +122,12 @@ namespace {
 /// One ring at a time; the memory is used again.
 class MonotoneFiller {
  public:
-  MonotoneFiller(const CornerRings& rings, const std::vector<Vec2>& points)
+  MonotoneFiller(const CornerRings& rings, const NumberedPoints& points)
       : rings_(rings), points_(points) {}
 
   /// `start` is the lowest point's corner and `end` the highest point's.
   void fill(uint32_t start, uint32_t end) {
-    waiting_.assign(1, rings_.point(start));
+    waiting_.assign(1, start);
     bool on_lower = true;
     uint32_t lower = rings_[start].next, upper = rings_[start].previous;
     while (lower != end || upper != end) {
@@ -137,18 +136,17 @@ class MonotoneFiller {
       const uint32_t corner = take_lower ? lower : upper;
       lower = take_lower ? rings_[lower].next : lower;
       upper = take_lower ? upper : rings_[upper].previous;
-      const uint32_t point = rings_.point(corner);
       if (waiting_.size() > 1 && take_lower != on_lower) {
         const uint32_t last = waiting_.back();
-        fan(point, on_lower);
+        fan(corner, on_lower);
         waiting_.assign(1, last);
       } else {
-        pop_convex(point, take_lower);
+        pop_convex(corner, take_lower);
       }
-      waiting_.push_back(point);
+      waiting_.push_back(corner);
       on_lower = take_lower;
     }
-    fan(rings_.point(end), on_lower);
+    fan(end, on_lower);
   }
 
   std::vector<std::array<uint32_t, 3>> triangles;
@@ -156,41 +154,44 @@ class MonotoneFiller {
  private:
   void emit(uint32_t a, uint32_t b, uint32_t c) {
     // The edges of a triangle that has shrunk to an edge cancel one another.
-    if (a != b && b != c && c != a) triangles.push_back({a, b, c});
+    const uint32_t p = rings_.point(a), q = rings_.point(b), r = rings_.point(c);
+    if (p != q && q != r && r != p)
+      triangles.push_back({rings_[a].origin, rings_[b].origin, rings_[c].origin});
   }
 
   /// To all that wait, which lie on the other side.
-  void fan(uint32_t point, bool waiting_on_lower) {
+  void fan(uint32_t corner, bool waiting_on_lower) {
     for (size_t i = 0; i + 1 < waiting_.size(); ++i) {
       if (waiting_on_lower)
-        emit(waiting_[i], waiting_[i + 1], point);
+        emit(waiting_[i], waiting_[i + 1], corner);
       else
-        emit(waiting_[i + 1], waiting_[i], point);
+        emit(waiting_[i + 1], waiting_[i], corner);
     }
   }
 
-  void pop_convex(uint32_t point, bool lower) {
+  void pop_convex(uint32_t corner, bool lower) {
     while (waiting_.size() > 1) {
       const uint32_t before = waiting_[waiting_.size() - 2], last = waiting_.back();
-      const double turn = orientation(points_[before], points_[last], points_[point]);
+      const double turn =
+          points_.turn(rings_.point(before), rings_.point(last), rings_.point(corner));
       if (lower ? turn <= 0 : turn >= 0) return;
       if (lower)
-        emit(before, last, point);
+        emit(before, last, corner);
       else
-        emit(last, before, point);
+        emit(last, before, corner);
       waiting_.pop_back();
     }
   }
 
   const CornerRings& rings_;
-  const std::vector<Vec2>& points_;
+  const NumberedPoints& points_;
   std::vector<uint32_t> waiting_;
 };
 
 }  // namespace
 
 std::vector<std::array<uint32_t, 3>> fill_monotone(const CornerRings& rings,
-                                                   const std::vector<Vec2>& points) {
+                                                   const NumberedPoints& points) {
   MonotoneFiller filler(rings, points);
   std::vector<bool> seen(rings.size());
   for (uint32_t i = 0; i < rings.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "flat/numbered_points.h"
 #include "flat/triangulation.h"
 
 namespace whittle {
@@ -17,6 +18,7 @@ class CornerRings {
  public:
   struct Corner {
     uint32_t point = 0, previous = 0, next = 0;
+    uint32_t origin = 0;  ///< the corner that it is a part of since cuts were made
   };
   struct Edge {
     uint32_t from = 0, to = 0;  ///< points
@@ -25,9 +27,9 @@ class CornerRings {
   };
 
   /// As many edges must come to a point as leave it. The corner that an edge leaves has its number.
-  CornerRings(const std::vector<Edge>& edges, const std::vector<Vec2>& points);
+  CornerRings(const std::vector<Edge>& edges, const NumberedPoints& points);
   /// Edges that run along one another in opposite directions are no edges.
-  explicit CornerRings(const WeldedPolygons& polygons);
+  CornerRings(const WeldedPolygons& polygons, const NumberedPoints& points);
 
   uint32_t size() const { return uint32_t(corners_.size()); }
   const Corner& operator[](uint32_t corner) const { return corners_[corner]; }
@@ -44,8 +46,13 @@ class CornerRings {
   std::vector<Corner> corners_;
 };
 
-/// Fills every ring, taking it for x-monotone.
+/// Triangles that fill the rings, of origins of corners (see triangulation.h). The rings are cut to
+/// pieces.
+std::vector<std::array<uint32_t, 3>> triangulate(CornerRings& rings, const NumberedPoints& points);
+
+/// Fills every ring, taking it for x-monotone. Triangles of origins of corners, no two of which are
+/// one point.
 std::vector<std::array<uint32_t, 3>> fill_monotone(const CornerRings& rings,
-                                                   const std::vector<Vec2>& points);
+                                                   const NumberedPoints& points);
 
 }  // namespace whittle

@@ -52,7 +52,7 @@ std::vector<WoundEdge> wound_edges(const WeldedPolygons& polygons) {
 /// Finds `above` of all edges.
 class WindingSweep {
  public:
-  WindingSweep(std::vector<WoundEdge>& edges, const std::vector<Vec2>& points)
+  WindingSweep(std::vector<WoundEdge>& edges, const NumberedPoints& points)
       : edges_(edges), points_(points), status_(Order{this}) {}
 
   void run() {
@@ -89,7 +89,7 @@ class WindingSweep {
   using Status = std::multiset<uint32_t, Order>;
 
   std::vector<WoundEdge>& edges_;
-  const std::vector<Vec2>& points_;
+  const NumberedPoints& points_;
   Status status_;
 };
 
@@ -128,7 +128,8 @@ WeldedPolygons welded(const Paths& paths) {
 Paths regularized(Paths paths) {
   const WeldedPolygons polygons = welded(paths);
   std::vector<WoundEdge> edges = wound_edges(polygons);
-  WindingSweep(edges, polygons.points).run();
+  const PlanePoints points(polygons.points);
+  WindingSweep(edges, points).run();
   size_t written = 0;
   for (const Path& path : paths) written += path.size();
   if (edges.size() == written && std::all_of(edges.begin(), edges.end(), is_outline)) return paths;
@@ -141,7 +142,7 @@ Paths regularized(Paths paths) {
     else
       outline.push_back({edge.to, edge.from});
   }
-  return contours(CornerRings(outline, polygons.points), polygons.points);
+  return contours(CornerRings(outline, points), polygons.points);
 }
 
 }  // namespace whittle

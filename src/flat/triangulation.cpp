@@ -6,7 +6,6 @@
 #include <set>
 
 #include "flat/corner_rings.h"
-#include "flat/orientation.h"
 #include "flat/sweep_order.h"
 
 namespace whittle {
@@ -24,7 +23,7 @@ struct LowerEdge : SweptEdge {
 /// Cuts rings at the corners where they turn back, from left to right.
 class MonotoneSweep {
  public:
-  MonotoneSweep(CornerRings& rings, const std::vector<Vec2>& points)
+  MonotoneSweep(CornerRings& rings, const NumberedPoints& points)
       : rings_(rings), points_(points), status_(Order{this}) {}
 
   void run() {
@@ -54,7 +53,7 @@ class MonotoneSweep {
   using Status = std::multiset<uint32_t, Order>;
 
   double side(const LowerEdge& edge, uint32_t point) const {
-    return orientation(points_[edge.from], points_[edge.to], points_[point]);
+    return points_.turn(edge.from, edge.to, point);
   }
 
   bool is_below(uint32_t a, uint32_t b) const {
@@ -101,7 +100,7 @@ class MonotoneSweep {
   void visit(uint32_t corner) {
     const uint32_t before = rings_.previous_point(corner), here = rings_.point(corner),
                    after = rings_.next_point(corner);
-    const bool convex = orientation(points_[before], points_[here], points_[after]) > 0;
+    const bool convex = points_.turn(before, here, after) > 0;
     if (before < here && here < after) {  // on the lower side
       insert(end_edge(corner));
     } else if (before < here && convex) {  // the right end
@@ -134,7 +133,7 @@ class MonotoneSweep {
   }
 
   CornerRings& rings_;
-  const std::vector<Vec2>& points_;
+  const NumberedPoints& points_;
   std::vector<LowerEdge> edges_;
   Status status_;
   std::vector<Status::iterator> into_;  ///< by corner as it was at first: the edge that ends there
@@ -177,11 +176,19 @@ WeldedPolygons weld(const Polygons& polygons) {
   return welded;
 }
 
-std::vector<std::array<uint32_t, 3>> triangulate(const WeldedPolygons& polygons) {
-  const std::vector<Vec2> points = normalized(polygons.points);
-  CornerRings rings(polygons);
+std::vector<std::array<uint32_t, 3>> triangulate(CornerRings& rings, const NumberedPoints& points) {
   MonotoneSweep(rings, points).run();
   return fill_monotone(rings, points);
+}
+
+std::vector<std::array<uint32_t, 3>> triangulate(const WeldedPolygons& polygons) {
+  const std::vector<Vec2> coordinates = normalized(polygons.points);
+  const PlanePoints points(coordinates);
+  CornerRings rings(polygons, points);
+  std::vector<std::array<uint32_t, 3>> triangles = triangulate(rings, points);
+  for (std::array<uint32_t, 3>& triangle : triangles)
+    for (uint32_t& corner : triangle) corner = rings.point(corner);
+  return triangles;
 }
 
 std::vector<std::array<Vec2, 3>> triangulate(const Polygons& polygons) {

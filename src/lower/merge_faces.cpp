@@ -67,7 +67,8 @@ std::vector<Found> merge_some(const Model& model, const UnitMaker& made, double 
   const FaceMerger::Merged merged = merger.merge([&](uint32_t surface) -> Outline {
     return [&, surface](const auto& test) {
       const auto same = std::ranges::equal_range(order, surface, {}, surface_of);
-      return std::ranges::all_of(same, [&](uint32_t i) { return outlines.test(faces[i], test); });
+      return std::all_of(same.begin(), same.end(),
+                         [&](uint32_t i) { return outlines.test(faces[i], test); });
     };
   });
   std::vector<Found> found(faces.size());

@@ -73,18 +73,19 @@ TEST_F(DropIn, WhatWouldBeAnotherPictureIsRefused) {
   }
 }
 
-TEST_F(DropIn, OnlyPicturesAreMade) {
+TEST_F(DropIn, OtherFormatsAreRefused) {
   for (const std::string ending :
-       {"stl", "off", "amf", "3mf", "csg", "dxf", "svg", "pdf", "echo", "ast", "STL"}) {
+       {"amf", "3mf", "csg", "dxf", "svg", "pdf", "echo", "ast", "AMF"}) {
     expect_refused({"part.csg", "-o", "x.png", "-o", "x." + ending},
                    "'x." + ending + "' asks for .");
   }
-  expect_refused({"part.csg", "-o", "x.stl"},
-                 "'x.stl' asks for .stl, but whittle makes pictures only, .png or .exr\n");
-  expect_refused({"part.csg", "-o", "x.png", "--export-format", "binstl"},
-                 "--export-format: 'binstl' asks for .binstl, but whittle makes pictures only");
-  expect_refused({"part.csg", "-s", "x.stl"}, "-s: whittle makes pictures only");
-  expect_refused({"part.csg", "-x", "x.dxf"}, "-x: whittle makes pictures only");
+  expect_refused(
+      {"part.csg", "-o", "x.amf"},
+      "'x.amf' asks for .amf, but whittle writes .png, .exr, .stl, .off and .obj only\n");
+  expect_refused({"part.csg", "-o", "x.png", "--export-format", "3mf"},
+                 "--export-format: '3mf' asks for .3mf, but whittle writes");
+  expect_refused({"part.csg", "-s", "x.stl"}, "-s: the ending of -o FILE says what is written");
+  expect_refused({"part.csg", "-x", "x.dxf"}, "-x: the ending of -o FILE says what is written");
 }
 
 TEST_F(DropIn, InfoIsOfThisProgram) {

@@ -72,10 +72,14 @@ TEST_F(Usage, TheEndingOfTheOutputMustBeKnown) {
   const Ended unknown = run({"part.csg", "-o", "x.jpg"});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_EQ(unknown.err,
-            "whittle: 'x.jpg' does not end in .png or .exr, so its format is not known\n");
+            "whittle: 'x.jpg' does not end in .png, .exr, .stl, .off or .obj, so its format is not "
+            "known\n");
   const Ended standard = run({"part.csg", "-o", "-"});
   EXPECT_EQ(standard.exit_code, 2);
-  EXPECT_EQ(standard.err, "whittle: -o - (standard output) needs --export-format png or exr\n");
+  EXPECT_EQ(
+      standard.err,
+      "whittle: -o - (standard output) needs --export-format png, exr, stl, binstl, asciistl, "
+      "off, obj\n");
 }
 
 TEST_F(Usage, StandardOutputHoldsOnePicture) {
@@ -122,9 +126,9 @@ TEST_F(Usage, NamesInMessagesCommandNoTerminal) {
             shown + ":1:10: warning: roofs are not supported; nothing is shown for it\n");
   EXPECT_EQ(run({odd, "-o", "x.png", "--strict"}).err,
             shown + ":1:10: error: roofs are not supported (--strict)\n");
-  EXPECT_EQ(
-      run({odd, "-o", odd}).err,
-      "whittle: '" + shown + "' asks for .csg, but whittle makes pictures only, .png or .exr\n");
+  EXPECT_EQ(run({odd, "-o", odd}).err,
+            "whittle: '" + shown +
+                "' asks for .csg, but whittle writes .png, .exr, .stl, .off and .obj only\n");
   EXPECT_EQ(run({"part.csg", "-o", "b\x1b/x.png"}).err,
             "whittle: cannot write 'b?/x.png': No such file or directory\n");
   EXPECT_EQ(run({"part.csg", "-o", "x.png", "--style", "\n\x1b"}).err,

@@ -1,0 +1,142 @@
+#include "boundary/evaluate_solid.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+
+#include "lower/evaluate.h"
+#include "lower/lower.h"
+#include "support/mesh_checks.h"
+#include "support/random_tree.h"
+#include "support/read_text.h"
+
+namespace whittle {
+namespace {
+
+Scene facetted(const std::string& text) {
+  ReadOptions options;
+  options.curves = Curves::kFacets;
+  return *lower(model_of(text, "test.csg", options));
+}
+
+SolidMesh solid(const Scene& scene, BoundaryStats* stats = nullptr, int threads = 2) {
+  const Workers workers(threads);
+  Result<SolidMesh> mesh = evaluate_solid(scene, workers, stats);
+  EXPECT_TRUE(mesh) << (mesh ? "" : mesh.error().message);
+  return mesh ? *std::move(mesh) : SolidMesh{};
+}
+
+void expect_solid(const std::string& text, double its_volume) {
+  const SolidMesh mesh = solid(facetted(text));
+  EXPECT_EQ(manifold_fault(mesh), "") << text;
+  EXPECT_NEAR(volume(mesh), its_volume, 1e-9 * its_volume + 1e-12) << text;
+}
+
+TEST(EvaluateSolid, Cube) {
+  const SolidMesh mesh = solid(facetted("cube(size = [2, 3, 4], center = false);"));
+  EXPECT_EQ(manifold_fault(mesh), "");
+  EXPECT_EQ(mesh.corners.size(), 8u);
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  EXPECT_EQ(mesh.faces.size(), 6u);
+  EXPECT_DOUBLE_EQ(volume(mesh), 24);
+  for (const SolidMesh::Face& face : mesh.faces) EXPECT_EQ(face.owner, 1u);
+}
+
+TEST(EvaluateSolid, KnownVolumes) {
+  expect_solid(
+      "difference() { cube(size = 10); multmatrix([[1,0,0,2],[0,1,0,2],[0,0,1,-1],[0,0,0,1]])"
+      " cube(size = [3, 4, 20]); }",
+      1000 - 3 * 4 * 10);
+  expect_solid(
+      "difference() { cube(size = 10); multmatrix([[1,0,0,2],[0,1,0,2],[0,0,1,3],[0,0,0,1]])"
+      " cube(size = [3, 4, 5]); }",
+      1000 - 3 * 4 * 5);
+  // Flush in a face, in an edge, in a corner.
+  const auto beside = [](const char* at) {
+    return std::string("cube(size = 1); multmatrix([[1,0,0,") + at + " cube(size = 1);";
+  };
+  expect_solid(beside("1],[0,1,0,0],[0,0,1,0],[0,0,0,1]])"), 2);
+  expect_solid(beside("1],[0,1,0,1],[0,0,1,0],[0,0,0,1]])"), 2);
+  expect_solid(beside("1],[0,1,0,1],[0,0,1,1],[0,0,0,1]])"), 2);
+  expect_solid(beside("1],[0,1,0,0.5],[0,0,1,0],[0,0,0,1]])"), 2);
+  expect_solid("cylinder(h = 2, r1 = 1, r2 = 1, $fn = 4);", 4);
+}
+
+TEST(EvaluateSolid, FlushFacesAreOne) {
+  const SolidMesh mesh =
+      solid(facetted("cube(size = 1); multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) "
+                     "cube(size = 1);"));
+  EXPECT_EQ(mesh.corners.size(), 8u);
+  EXPECT_EQ(mesh.faces.size(), 6u);
+}
+
+/// Cubes where x + y + z is even: every inner edge touches two of them, every inner corner four.
+TEST(EvaluateSolid, CheckerboardComesApart) {
+  std::string text;
+  int count = 0;
+  for (int x = 0; x < 3; ++x)
+    for (int y = 0; y < 3; ++y)
+      for (int z = 0; z < 3; ++z) {
+        if ((x + y + z) % 2 != 0) continue;
+        ++count;
+        text += "multmatrix([[1,0,0," + std::to_string(x) + "],[0,1,0," + std::to_string(y) +
+                "],[0,0,1," + std::to_string(z) + "],[0,0,0,1]]) cube(size = 1);\n";
+      }
+  BoundaryStats stats;
+  const SolidMesh mesh = solid(facetted(text), &stats);
+  EXPECT_EQ(manifold_fault(mesh), "");
+  EXPECT_DOUBLE_EQ(volume(mesh), count);
+  EXPECT_GT(stats.shared_edges, 0u);
+  EXPECT_EQ(mesh.corners.size(), size_t(8 * count));
+}
+
+TEST(EvaluateSolid, NothingAndNoEnd) {
+  EXPECT_TRUE(solid(facetted("")).triangles.empty());
+  EXPECT_TRUE(
+      solid(facetted("difference() { cube(size = 1); cube(size = 1); }")).triangles.empty());
+  const Workers workers(1);
+  EXPECT_FALSE(evaluate_solid(facetted("halfspace([1, 0, 0], 1);"), workers));
+  EXPECT_FALSE(evaluate_solid(*lower(model_of("sphere(r = 1);")), workers));
+}
+
+/// Points of a mesh's box are inside of it if they are in the scene.
+void expect_same_points(const Scene& scene, const SolidMesh& mesh, uint64_t seed,
+                        const std::string& text) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int i = 0; i < 40; ++i) {
+    Vec3 p = scene.region.lo;
+    for (int k = 0; k < 3; ++k) p[k] += share(random) * scene.region.size()[k];
+    const bool is_near =
+        std::any_of(scene.half_spaces.begin(), scene.half_spaces.end(), [&](const HalfSpace& h) {
+          return std::fabs(Kernels<double>::quadric_value(h.f, p - h.center)) < 1e-6;
+        });
+    if (is_near) continue;
+    EXPECT_EQ(winding(mesh, p + scene.origin), contains(scene, scene.formula, p) ? 1 : 0) << text;
+  }
+}
+
+class EvaluateRandom : public testing::TestWithParam<RandomTreeOptions> {};
+
+TEST_P(EvaluateRandom, IsClosedAndTheSameSolid) {
+  for (int seed = 1; seed <= 60; ++seed) {
+    const std::string text = random_tree(uint64_t(seed), GetParam());
+    const Scene scene = facetted(text);
+    BoundaryStats stats;
+    const SolidMesh mesh = solid(scene, &stats);
+    EXPECT_EQ(manifold_fault(mesh), "") << "seed " << seed;
+    EXPECT_FALSE(stats.asked_all_contacts && scene.boundaries.empty()) << "seed " << seed;
+    expect_same_points(scene, mesh, uint64_t(seed), "seed " + std::to_string(seed));
+    if (HasFailure()) break;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Trees, EvaluateRandom,
+    testing::Values(RandomTreeOptions{.primitives = 8},
+                    RandomTreeOptions{.primitives = 14, .coincident = true},
+                    RandomTreeOptions{.primitives = 14, .coincident = true, .nearly = true}));
+
+}  // namespace
+}  // namespace whittle

@@ -1,0 +1,130 @@
+#include "boundary/leaf_function.h"
+
+#include <algorithm>
+
+namespace whittle {
+namespace {
+
+/// Bit s of kVariable[i] is bit i of s.
+constexpr uint64_t kVariable[kTableLiterals] = {0xaaaaaaaaaaaaaaaa, 0xcccccccccccccccc,
+                                                0xf0f0f0f0f0f0f0f0, 0xff00ff00ff00ff00,
+                                                0xffff0000ffff0000, 0xffffffff00000000};
+
+bool is_leaf(CellLink link) {
+  return link.kind() == CellKind::kConjunction || link.kind() == CellKind::kDisjunction ||
+         link.kind() == CellKind::kTable || link.kind() == CellKind::kProgram;
+}
+
+}  // namespace
+
+void LocalPlanes::clear() {
+  for (const uint32_t plane : planes_) numbers_[plane] = kNone;
+  planes_.clear();
+}
+
+uint32_t LocalPlanes::add(uint32_t plane) {
+  uint32_t& number = numbers_[plane];
+  if (number == kNone) {
+    number = uint32_t(planes_.size());
+    planes_.push_back(plane);
+  }
+  return number;
+}
+
+void LeafFunction::set(CellLink link, std::span<const PlacedHalfSpace> half_spaces,
+                       LocalPlanes& local) {
+  link_ = link;
+  literals_.clear();
+  if (!is_leaf(link)) return;
+  for (const LeafLiteral& literal : link.leaf().literals()) {
+    const PlacedHalfSpace& placed = half_spaces[literal.literal >> 1];
+    literals_.push_back({local.add(placed.plane), placed.inside, bool(literal.literal & 1)});
+  }
+}
+
+std::optional<bool> LeafFunction::is_inside(const Literal& literal,
+                                            std::span<const PlaneSide> sides) const {
+  const PlaneSide side = sides[literal.local];
+  if (side == 0) return std::nullopt;
+  return side == literal.inside;
+}
+
+LeafFunction::Answer LeafFunction::at(std::span<const PlaneSide> sides, uint32_t& from) const {
+  if (link_.kind() == CellKind::kEmpty) return {false};
+  if (link_.kind() == CellKind::kFull) return {true};
+  if (literals_.size() <= kTableLiterals) return by_table(sides);
+  return link_.kind() == CellKind::kProgram ? by_program(sides, from) : by_group(sides);
+}
+
+LeafFunction::Answer LeafFunction::by_table(std::span<const PlaneSide> sides) const {
+  const size_t count = literals_.size();
+  const uint64_t rows =
+      count == kTableLiterals ? ~uint64_t(0) : (uint64_t(1) << (size_t(1) << count)) - 1;
+  // Both halves of the table become the one that is known to hold.
+  uint64_t table = link_.leaf().table & rows;
+  for (size_t i = 0; i < count; ++i) {
+    const std::optional<bool> inside = is_inside(literals_[i], sides);
+    if (!inside) continue;
+    const unsigned width = 1u << i;
+    const uint64_t half = *inside ? table & kVariable[i] : table & ~kVariable[i];
+    table = *inside ? half | half >> width : half | half << width;
+  }
+  if (table == 0) return {false};
+  if (table == rows) return {true};
+  for (size_t i = 0; i < count; ++i) {
+    const uint64_t with = table & kVariable[i], without = table & ~kVariable[i];
+    if (with >> (1u << i) != without) return {std::nullopt, literals_[i].local};
+  }
+  return {false};
+}
+
+LeafFunction::Answer LeafFunction::by_group(std::span<const PlaneSide> sides) const {
+  const bool neutral = link_.kind() == CellKind::kConjunction;
+  const Literal* open = nullptr;
+  for (const Literal& literal : literals_) {
+    const std::optional<bool> inside = is_inside(literal, sides);
+    if (!inside)
+      open = open == nullptr ? &literal : open;
+    else if ((*inside != literal.negated) != neutral)
+      return {!neutral};
+  }
+  if (open != nullptr) return {std::nullopt, open->local};
+  return {neutral};
+}
+
+LeafFunction::Answer LeafFunction::by_program(std::span<const PlaneSide> sides,
+                                              uint32_t& from) const {
+  const std::span<const Step> steps = link_.leaf().steps();
+  uint32_t& at = from;
+  while (at < kAnswerFalse) {
+    const Step& step = steps[at];
+    const Literal& literal = literals_[step.literal >> 1];
+    const std::optional<bool> inside = is_inside(literal, sides);
+    if (!inside) return {std::nullopt, literal.local};
+    at = *inside != bool(step.literal & 1) ? step.on_true : step.on_false;
+  }
+  return {at == kAnswerTrue};
+}
+
+uint32_t LeafFunction::owner(const Scene& scene, uint32_t local_plane) const {
+  uint32_t first = kSharedOwner;
+  const auto take = [&](uint32_t id) {
+    if (first == kSharedOwner || id < first) first = id;
+  };
+  for (size_t i = 0; i < literals_.size(); ++i) {
+    if (literals_[i].local != local_plane) continue;
+    const LeafLiteral& literal = link_.leaf().literals()[i];
+    if (literal.owner != kSharedOwner) {
+      take(literal.owner);
+      continue;
+    }
+    for (const Token token : flat_tokens(link_.leaf().tokens())) {
+      if (token.is_group()) continue;
+      const Face& face = scene.faces[token.payload()];
+      if (face.literal >> 1 == literal.literal >> 1) take(scene.units[face.unit].id);
+    }
+  }
+  return first;
+}
+
+}  // namespace whittle

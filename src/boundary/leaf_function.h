@@ -1,0 +1,67 @@
+// What a cell's leaf says where only some of its planes' sides are known.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "boundary/exact_plane.h"
+#include "subdivide/cells.h"
+
+namespace whittle {
+
+/// Where the half-spaces of a scene lie: the plane, and on which side of it the half-space is.
+struct PlacedHalfSpace {
+  uint32_t plane = 0;
+  PlaneSide inside = 0;
+};
+
+/// Planes that a few leaves share, by short numbers.
+class LocalPlanes {
+ public:
+  /// There are so many planes in all.
+  explicit LocalPlanes(size_t planes) : numbers_(planes, kNone) {}
+
+  void clear();
+  uint32_t add(uint32_t plane);
+  std::span<const uint32_t> all() const { return planes_; }
+
+ private:
+  static constexpr uint32_t kNone = UINT32_MAX;
+  std::vector<uint32_t> planes_;
+  std::vector<uint32_t> numbers_;  ///< by plane
+};
+
+class LeafFunction {
+ public:
+  /// Of a leaf, an empty cell or a full one. Its planes are added to `local`.
+  void set(CellLink link, std::span<const PlacedHalfSpace> half_spaces, LocalPlanes& local);
+
+  struct Answer {
+    std::optional<bool> value;
+    uint32_t asks = 0;  ///< no value yet: the side of this plane matters
+  };
+  /// `sides`: by local number of plane, 0 if it is not known. `from`: 0 at first, then what the
+  /// last call left there if nothing has changed but that more sides are known.
+  Answer at(std::span<const PlaneSide> sides, uint32_t& from) const;
+
+  /// The id of the first body that has a face in a plane; kSharedOwner if none has.
+  uint32_t owner(const Scene& scene, uint32_t local_plane) const;
+
+ private:
+  struct Literal {
+    uint32_t local;
+    PlaneSide inside;
+    bool negated;
+  };
+  std::optional<bool> is_inside(const Literal& literal, std::span<const PlaneSide> sides) const;
+  Answer by_table(std::span<const PlaneSide> sides) const;
+  Answer by_group(std::span<const PlaneSide> sides) const;
+  Answer by_program(std::span<const PlaneSide> sides, uint32_t& from) const;
+
+  CellLink link_;
+  std::vector<Literal> literals_;
+};
+
+}  // namespace whittle
