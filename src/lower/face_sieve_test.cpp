@@ -12,7 +12,7 @@
 namespace whittle {
 namespace {
 
-constexpr double kTolerance = 1e-6;
+constexpr double kSieveTolerance = 1e-6;
 
 struct SievedFace {
   HalfSpace half_space;
@@ -77,7 +77,7 @@ bool are_near(const SievedFace& a, const SievedFace& b) {
 }
 
 std::vector<uint32_t> sieved(const std::vector<SievedFace>& faces, const Workers* workers) {
-  FaceSieve sieve(1, kTolerance, faces.size());
+  FaceSieve sieve(1, kSieveTolerance, faces.size());
   std::vector<HalfSpace> half_spaces;
   for (uint32_t i = 0; i < faces.size(); ++i) {
     half_spaces.push_back(faces[i].half_space);
@@ -92,7 +92,7 @@ SievedFace neighbour(const SievedFace& of, double radius, double tolerance, Dice
   const HalfSpace& h = of.half_space;
   if (h.is_plane()) {
     const Vec3 n = normalize(h.f.b * 2.0 + dice.vector() * (tolerance / radius));
-    const double offset = dot(n, h.center) + 2 * kTolerance * dice.unit();
+    const double offset = dot(n, h.center) + 2 * kSieveTolerance * dice.unit();
     const Vec3 place = dice.vector() * (1 - radius);
     const double side = dice.unit() < 0 ? -1 : 1;
     return plane_face(n * side, offset * side, place - n * (dot(n, place) - offset), radius,
@@ -111,7 +111,7 @@ std::vector<SievedFace> mixed_faces(size_t count) {
   std::vector<SievedFace> faces;
   while (faces.size() < count) {
     const double radius = std::pow(10, -1.5 * std::fabs(dice.unit()));
-    const double tolerance = std::min(kTolerance, 1e-3 * radius);
+    const double tolerance = std::min(kSieveTolerance, 1e-3 * radius);
     if (faces.size() > 2 && dice.unit() < -0.4) {
       faces.push_back(neighbour(faces[dice.bits() % faces.size()], radius, tolerance, dice));
     } else if (faces.size() % 3 == 0) {
@@ -162,8 +162,8 @@ TEST(FaceSieve, WhatStandsFarApartStandsAlone) {
     // On a spiral over the half sphere, a thousand slacks from turn to turn.
     const double z = (i + 0.5) / 5000, turn = i * 2.399963229728653, r = std::sqrt(1 - z * z);
     const Vec3 n{r * std::cos(turn), r * std::sin(turn), z};
-    faces.push_back(plane_face(n, 0.9 * std::sin(i * 0.7), {}, 1, kTolerance));
-    faces.push_back(ball_face(n, 0.01, kTolerance));
+    faces.push_back(plane_face(n, 0.9 * std::sin(i * 0.7), {}, 1, kSieveTolerance));
+    faces.push_back(ball_face(n, 0.01, kSieveTolerance));
   }
   EXPECT_EQ(sieved(faces, nullptr).size(), 0u);
 }
@@ -172,12 +172,12 @@ TEST(FaceSieve, WhatStandsFarApartStandsAlone) {
 TEST(FaceSieve, WhatIsFarOffIsFound) {
   for (const double far : {1e14, 1e200, 1e300}) {
     const std::vector<SievedFace> faces = {
-        plane_face({0, 0, 1}, far, {}, 1, kTolerance),
-        plane_face({0, 0, -1}, -far, {}, 1, kTolerance),
-        plane_face({0, 0, 1}, 0.5, {}, 1, kTolerance),
-        ball_face({far, 0, 0}, 1, kTolerance),
-        ball_face({far, 0, 0}, 1, kTolerance),
-        ball_face({0, 0, 0}, 1, kTolerance),
+        plane_face({0, 0, 1}, far, {}, 1, kSieveTolerance),
+        plane_face({0, 0, -1}, -far, {}, 1, kSieveTolerance),
+        plane_face({0, 0, 1}, 0.5, {}, 1, kSieveTolerance),
+        ball_face({far, 0, 0}, 1, kSieveTolerance),
+        ball_face({far, 0, 0}, 1, kSieveTolerance),
+        ball_face({0, 0, 0}, 1, kSieveTolerance),
     };
     EXPECT_EQ(sieved(faces, nullptr), (std::vector<uint32_t>{0, 1, 3, 4})) << far;
   }
@@ -188,9 +188,9 @@ TEST(FaceSieve, WhatIsAsLooseAsTheRegionIsNearAll) {
   Dice dice;
   std::vector<SievedFace> faces;
   for (int i = 0; i < 100; ++i)
-    faces.push_back(plane_face(dice.vector(), dice.unit(), {}, 1, kTolerance));
+    faces.push_back(plane_face(dice.vector(), dice.unit(), {}, 1, kSieveTolerance));
   faces.push_back(plane_face({0, 0, 1}, 0, {}, 1e-15, 1));
-  faces.push_back(ball_face({}, 0.5, kTolerance));
+  faces.push_back(ball_face({}, 0.5, kSieveTolerance));
   const std::vector<uint32_t> found = sieved(faces, nullptr);
   ASSERT_EQ(found.size(), 101u);
   EXPECT_EQ(found.back(), 100u);

@@ -24,7 +24,7 @@ using whittle::Solid;
 using whittle::Style;
 using whittle::TestFolder;
 
-constexpr const char* kCube = "cube(0); cube(10, center = true);";
+constexpr const char* kCubeText = "cube(0); cube(10, center = true);";
 
 /// What a call that must fail says.
 template <class Call>
@@ -48,7 +48,7 @@ RenderOptions from_above() {
 }
 
 TEST(Solid, TellsWhatItIs) {
-  const Solid solid = Solid::parse(kCube);
+  const Solid solid = Solid::parse(kCubeText);
   EXPECT_TRUE(solid.is_complete());
   EXPECT_TRUE(solid.warnings().empty());
   EXPECT_EQ(solid.statement_count(), 2u);
@@ -72,7 +72,7 @@ TEST(Solid, IsNotCompleteIfSomethingIsNotSupported) {
 
 TEST(Solid, LoadsFilesAndSaysWhyNot) {
   const fs::path file = fs::temp_directory_path() / "whittle-api-test.csg";
-  std::ofstream(file) << kCube;
+  std::ofstream(file) << kCubeText;
   EXPECT_EQ(Solid::load(file.string()).statement_count(), 2u);
   fs::remove(file);
   const Failure absent = failure_of([&] { (void)Solid::load(file.string()); });
@@ -113,7 +113,7 @@ TEST(Solid, KnowsWhereItsStatementsStand) {
 }
 
 TEST(Rendering, HoldsTheFactsOfEveryPixel) {
-  const Rendering made = Solid::parse(kCube).render(from_above());
+  const Rendering made = Solid::parse(kCubeText).render(from_above());
   ASSERT_EQ(made.width, 31);
   ASSERT_EQ(made.height, 21);
   ASSERT_EQ(made.id.size(), size_t(31 * 21));
@@ -177,13 +177,13 @@ TEST(Solid, RefusesWhatPassesALimit) {
 TEST(Rendering, IsTransparentWithoutBackground) {
   RenderOptions options = from_above();
   options.background = false;
-  const Rendering made = Solid::parse(kCube).render(options);
+  const Rendering made = Solid::parse(kCubeText).render(options);
   EXPECT_TRUE(made.transparent);
   EXPECT_EQ(made.rgba[3], 0);
 }
 
 TEST(Rendering, RefusesOptionsThatDoNotExist) {
-  const Solid solid = Solid::parse(kCube);
+  const Solid solid = Solid::parse(kCubeText);
   const auto refused = [&](const auto& change) {
     RenderOptions options = from_above();
     change(options);
@@ -207,7 +207,7 @@ TEST(Rendering, RefusesOptionsThatDoNotExist) {
 
 TEST(Rendering, IsWrittenByTheEndingOfTheName) {
   const TestFolder folder;
-  Rendering made = Solid::parse(kCube).render(from_above());
+  Rendering made = Solid::parse(kCubeText).render(from_above());
   made.write(folder / "x.png");
   made.write(folder / "x.exr");
   EXPECT_GT(fs::file_size(folder / "x.png"), 100u);
