@@ -66,9 +66,9 @@ std::vector<Found> merge_some(const Model& model, const UnitMaker& made, double 
   std::ranges::stable_sort(order, {}, surface_of);
   const FaceMerger::Merged merged = merger.merge([&](uint32_t surface) -> Outline {
     return [&, surface](const auto& test) {
-      const auto same = std::ranges::equal_range(order, surface, {}, surface_of);
-      return std::all_of(same.begin(), same.end(),
-                         [&](uint32_t i) { return outlines.test(faces[i], test); });
+      const auto first = std::ranges::lower_bound(order, surface, {}, surface_of);
+      const auto last = std::ranges::upper_bound(order, surface, {}, surface_of);
+      return std::all_of(first, last, [&](uint32_t i) { return outlines.test(faces[i], test); });
     };
   });
   std::vector<Found> found(faces.size());
