@@ -16,8 +16,8 @@ struct BoundaryStats {
 
 /// The boundary of the scene's solid; nothing of an empty one. Its corners are right to a few units
 /// of the last place, or where edges no longer than 10^-12 of the region were drawn together, by as
-/// much. A kInput error if the solid has no
-/// end, or curved surfaces. The same whatever the number of threads.
+/// much. The same whatever the number of threads. A kInput error if the solid has no end, or curved
+/// surfaces.
 Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers,
                                  BoundaryStats* stats = nullptr);
 

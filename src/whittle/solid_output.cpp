@@ -37,9 +37,9 @@ Result<SolidMesh> solid_of(const Model& model, int threads, BoundaryStats* stats
     return Error{ErrorKind::kInput, model.file + ": error: " + why};
   };
   if (model.drawing) return refused("is flat; these files hold solids");
-  const Result<Scene> scene = lower(model);
-  if (!scene) return scene.error();
   const Workers workers(threads);
+  const Result<Scene> scene = lower(model, &workers);
+  if (!scene) return scene.error();
   Result<SolidMesh> mesh = evaluate_solid(*scene, workers, stats);
   if (!mesh)
     return mesh.error().kind == ErrorKind::kInput ? refused(mesh.error().message) : mesh.error();
