@@ -5,7 +5,6 @@
 #include "csg/reader.h"
 
 #include <condition_variable>
-#include <cstring>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -77,7 +76,7 @@ class PieceReader {
       lock.unlock();
       piece->text = read_piece(source_, number, options_.piece_bytes, piece->buffer);
       const std::string_view text = piece->text.text;
-      const bool has_nul = std::memchr(text.data(), 0, text.size()) != nullptr;
+      const bool has_nul = text.find(char{0}) != std::string_view::npos;
       if (!has_nul) piece->reader.read_piece(text, piece->text.is_last);
       lock.lock();
       if (has_nul) stop_ = Stop::kNul;

@@ -55,7 +55,7 @@ TEST(Session, OutlivesTheSolidItIsOf) {
 }
 
 TEST(Session, PicksWhatThePictureShows) {
-  for (const Backend backend : {Backend::kCpu, Backend::kVulkanRaster, Backend::kOracle}) {
+  for (const Backend backend : {Backend::kCpu, Backend::kOracle}) {
     Session session(drilled(), {.backend = backend});
     const whittle::RenderOptions view = above(40, 30);
     const whittle::Rendering picture = session.render(view);

@@ -167,7 +167,7 @@ TEST(CpuAgreement, RaysThatAreNoCameras) {
         seed, {.primitives = 12, .coincident = seed % 3 == 0, .halfspaces = seed % 5 == 0}));
     const auto oracle = make_oracle_tracer(model);
     CpuSubject cpu(model, leaf_size(kLeafSizes[seed % 4]));
-    CastingTracer casting(*cpu.tracer, bounds(model).box.diagonal());
+    CastingTracer casting(*cpu.tracer, 1e-3 * bounds(model).box.diagonal());
     for (const Camera& camera : cameras_for(model, 32, 24)) {
       const AgreementReport report = check_agreement(model, casting, *oracle, camera);
       EXPECT_EQ(report.unexplained, 0) << report.first_difference;

@@ -183,7 +183,7 @@ TEST_F(RasterAgreement, RaysThatAreNoCameras) {
   const Model model = example("cheese100.csg");
   const auto oracle = make_oracle_tracer(model);
   RasterSubject subject(device, model, leaf_size(6)), other(unified, model, leaf_size(6), true);
-  const double reach = bounds(model).box.diagonal();
+  const double reach = 1e-3 * bounds(model).box.diagonal();
   CastingTracer casting(*subject.tracer, reach), casting_other(*other.tracer, reach);
   for (const Camera& camera : cameras_for(model, 64, 48))
     EXPECT_GT(compare(model, casting, casting_other, *oracle, camera).hits, 300);

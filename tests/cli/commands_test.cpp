@@ -290,8 +290,6 @@ TEST_F(Bench, JsonIsAnArrayWithAnObjectAFile) {
           "peak_memory_bytes", "cells", "leaves", "leaf_visits_per_ray", "cell_visits_per_ray",
           "literals_per_ray", "checked"})
       EXPECT_GT(one[name].get<double>(), 0) << name;
-    EXPECT_GE(one["cold_ms"].get<double>(), one["trace_ms"].get<double>() / 2);
-    EXPECT_GE(one["file_ms"].get<double>(), one["trace_ms"].get<double>() / 2);
     EXPECT_EQ(one["paper_ms"]["S"], one["subdivide_ms"]);
     EXPECT_EQ(one["paper_ms"]["T"], one["trace_ms"]);
     EXPECT_EQ(one["paper_ms"]["cold"], one["cold_ms"]);

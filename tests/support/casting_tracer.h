@@ -13,7 +13,8 @@ namespace whittle {
 
 class CastingTracer final : public Tracer {
  public:
-  /// `inner` must outlive it; `reach` is how far rays are moved at most.
+  /// `inner` must outlive it; `reach` is how far rays are moved at most. Much less than what is
+  /// seen is away, for distances are floats.
   CastingTracer(Tracer& inner, double reach) : inner_(inner), reach_(reach) {}
 
   const char* name() const override { return "casting"; }
