@@ -14,7 +14,7 @@ namespace whittle {
 namespace {
 
 bool has_plane(CellLink link, std::span<const PlacedHalfSpace> half_spaces, uint32_t plane) {
-  if (link.kind() == CellKind::kEmpty || link.kind() == CellKind::kFull) return false;
+  if (!is_leaf(link.kind())) return false;
   const std::span<const LeafLiteral> literals = link.leaf().literals();
   return std::any_of(literals.begin(), literals.end(), [&](const LeafLiteral& literal) {
     return half_spaces[literal.literal >> 1].plane == plane;
@@ -73,17 +73,53 @@ std::vector<Pieces::Owner> first_owners(std::vector<Pieces::Owner> owners) {
   return owners;
 }
 
-}  // namespace
-
-Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, BoundaryStats* stats) {
+/// Only planes have facets, and only what has an end fits into a file.
+Status check_solid(const Scene& scene) {
   if (!scene.bounded)
     return Error{ErrorKind::kInput, "the solid has no end, so no file holds all of it"};
   const auto is_curved = [](const HalfSpace& h) { return !h.is_plane(); };
   if (std::any_of(scene.half_spaces.begin(), scene.half_spaces.end(), is_curved))
     return Error{ErrorKind::kInput,
                  "true curves have no facets (--curves facets gives them some; more than 2048 "
-                 "count as a true "
-                 "curve)"};
+                 "count as a true curve)"};
+  return Done{};
+}
+
+/// How much there is of pieces, to go back to.
+class PieceMark {
+ public:
+  explicit PieceMark(const Pieces& pieces)
+      : points_(pieces.points.size()),
+        edges_(pieces.edges.size()),
+        owners_(pieces.owners.size()),
+        count_(pieces.count) {}
+
+  void go_back(Pieces& pieces) const {
+    pieces.points.resize(points_);
+    pieces.edges.resize(edges_);
+    pieces.owners.resize(owners_);
+    pieces.count = count_;
+  }
+
+ private:
+  size_t points_, edges_, owners_, count_;
+};
+
+/// The contacts that are asked what lies between their cells; all in which something may, or only
+/// those in which a leaf has a plane there.
+std::vector<Contact> contacts_of(const CellTree& tree, const ExactGrid& grid,
+                                 const PlaneTable& planes,
+                                 std::span<const PlacedHalfSpace> half_spaces, bool asks_all) {
+  return walk_contacts(tree, grid, planes, [&](CellLink below, CellLink above, uint32_t plane) {
+    if (!is_leaf(below.kind()) && !is_leaf(above.kind())) return below.kind() != above.kind();
+    return asks_all || has_plane(below, half_spaces, plane) || has_plane(above, half_spaces, plane);
+  });
+}
+
+}  // namespace
+
+Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, BoundaryStats* stats) {
+  if (Status possible = check_solid(scene); !possible) return possible.error();
   if (scene.region.is_empty()) return SolidMesh{};
 
   BoundaryStats ignored;
@@ -102,53 +138,43 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
   const CellTree tree = open_cells(scene, {}, &workers);
   refine_all(tree, workers);
   const std::vector<WalkedLeaf> leaves = walk_leaves(tree, grid, planes);
-
   s.leaves = leaves.size();
   lap(s.cells_ms);
 
   const ExactGeometry geometry(planes);
   PieceCollector collector(scene, geometry, half_spaces, workers);
-  Pieces within;
-  collector.collect(
-      leaves.size(),
-      [&](PieceMaker& maker, size_t i, Pieces& out) {
-        maker.within(leaves[i].link, leaves[i].sides, out);
-      },
-      within);
+  Pieces pieces;
+  const auto add_leaf = [&](PieceMaker& maker, size_t i, Pieces& out) {
+    maker.within(leaves[i].link, leaves[i].sides, out);
+  };
+  collector.collect(leaves.size(), add_leaf, pieces);
+  const PieceMark within(pieces);
 
   // Leaves are proven to agree where they touch, but for what lies there; where a body is a mesh
   // they need not, by less than its slack. If they do not, all contacts are asked.
-  bool asks_all = !scene.boundaries.empty();
+  s.asked_all_contacts = !scene.boundaries.empty();
   while (true) {
-    const auto is_wanted = [&](CellLink below, CellLink above, uint32_t plane) {
-      const bool both_decided = below.kind() <= CellKind::kFull && above.kind() <= CellKind::kFull;
-      if (both_decided) return below.kind() != above.kind();
-      return asks_all || has_plane(below, half_spaces, plane) ||
-             has_plane(above, half_spaces, plane);
+    const std::vector<Contact> contacts =
+        contacts_of(tree, grid, planes, half_spaces, s.asked_all_contacts);
+    const auto add_contact = [&](PieceMaker& maker, size_t i, Pieces& out) {
+      const Contact& contact = contacts[i];
+      maker.between(contact.below, contact.above, contact.axis, contact.rectangle, out);
     };
-    const std::vector<Contact> contacts = walk_contacts(tree, grid, planes, is_wanted);
-    Pieces pieces = within;
-    collector.collect(
-        contacts.size(),
-        [&](PieceMaker& maker, size_t i, Pieces& out) {
-          const Contact& contact = contacts[i];
-          maker.between(contact.below, contact.above, contact.axis, contact.rectangle, out);
-        },
-        pieces);
+    collector.collect(contacts.size(), add_contact, pieces);
+    s.contacts = contacts.size();
     lap(s.cut_ms);
     LineTable lines(geometry);
-    Result<FaceOutlines> outlines = join(pieces, geometry, lines, workers);
+    const Result<FaceOutlines> outlines = join(pieces, geometry, lines, workers);
     lap(s.join_ms);
-    if (!outlines && asks_all) return outlines.error();
     if (!outlines) {
-      asks_all = true;
+      if (s.asked_all_contacts) return outlines.error();
+      s.asked_all_contacts = true;
+      within.go_back(pieces);
       continue;
     }
-    s.contacts = contacts.size();
     s.pieces = pieces.count;
     s.outline_edges = outlines->edges.size() / 2;
     s.shared_edges = outlines->shared_edges;
-    s.asked_all_contacts = asks_all;
     SolidMesh mesh = finish(fill(*outlines, geometry, workers), *outlines,
                             first_owners(pieces.owners), geometry, grid.per_unit(), scene.origin);
     // Planes that were written to meet in one point do so but for rounding.

@@ -15,9 +15,7 @@ namespace whittle {
 namespace {
 
 Scene facetted(const std::string& text) {
-  ReadOptions options;
-  options.curves = Curves::kFacets;
-  return *lower(model_of(text, "test.csg", options));
+  return *lower(facetted_model_of(text));
 }
 
 SolidMesh solid(const Scene& scene, BoundaryStats* stats = nullptr, int threads = 2) {

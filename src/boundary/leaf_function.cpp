@@ -1,22 +1,10 @@
 #include "boundary/leaf_function.h"
 
-#include <algorithm>
+#include <optional>
+
+#include "subdivide/truth_table.h"
 
 namespace whittle {
-namespace {
-
-/// Bit s of kVariable[i] is bit i of s.
-constexpr uint64_t kVariable[kTableLiterals] = {0xaaaaaaaaaaaaaaaa, 0xcccccccccccccccc,
-                                                0xf0f0f0f0f0f0f0f0, 0xff00ff00ff00ff00,
-                                                0xffff0000ffff0000, 0xffffffff00000000};
-
-bool is_leaf(CellLink link) {
-  return link.kind() == CellKind::kConjunction || link.kind() == CellKind::kDisjunction ||
-         link.kind() == CellKind::kTable || link.kind() == CellKind::kProgram;
-}
-
-}  // namespace
-
 void LocalPlanes::clear() {
   for (const uint32_t plane : planes_) numbers_[plane] = kNone;
   planes_.clear();
@@ -35,7 +23,7 @@ void LeafFunction::set(CellLink link, std::span<const PlacedHalfSpace> half_spac
                        LocalPlanes& local) {
   link_ = link;
   literals_.clear();
-  if (!is_leaf(link)) return;
+  if (!is_leaf(link.kind())) return;
   for (const LeafLiteral& literal : link.leaf().literals()) {
     const PlacedHalfSpace& placed = half_spaces[literal.literal >> 1];
     literals_.push_back({local.add(placed.plane), placed.inside, bool(literal.literal & 1)});
@@ -57,24 +45,21 @@ LeafFunction::Answer LeafFunction::at(std::span<const PlaneSide> sides, uint32_t
 }
 
 LeafFunction::Answer LeafFunction::by_table(std::span<const PlaneSide> sides) const {
-  const size_t count = literals_.size();
-  const uint64_t rows =
-      count == kTableLiterals ? ~uint64_t(0) : (uint64_t(1) << (size_t(1) << count)) - 1;
+  const auto count = uint32_t(literals_.size());
+  const uint64_t rows = table_rows(count);
   // Both halves of the table become the one that is known to hold.
   uint64_t table = link_.leaf().table & rows;
-  for (size_t i = 0; i < count; ++i) {
+  for (uint32_t i = 0; i < count; ++i) {
     const std::optional<bool> inside = is_inside(literals_[i], sides);
     if (!inside) continue;
     const unsigned width = 1u << i;
-    const uint64_t half = *inside ? table & kVariable[i] : table & ~kVariable[i];
+    const uint64_t half = *inside ? table & kTableOf[i] : table & ~kTableOf[i];
     table = *inside ? half | half >> width : half | half << width;
   }
   if (table == 0) return {false};
   if (table == rows) return {true};
-  for (size_t i = 0; i < count; ++i) {
-    const uint64_t with = table & kVariable[i], without = table & ~kVariable[i];
-    if (with >> (1u << i) != without) return {std::nullopt, literals_[i].local};
-  }
+  for (uint32_t i = 0; i < count; ++i)
+    if (depends_on(table, i)) return {std::nullopt, literals_[i].local};
   return {false};
 }
 

@@ -39,7 +39,6 @@ class PieceReader {
         size_(source.place().size()),
         file_(file),
         options_(options),
-
         read_((size_ + options.piece_bytes - 1) / options.piece_bytes),
         // So many may wait for one that takes longer.
         ahead_(2 * workers + 2),

@@ -5,24 +5,10 @@
 #include <memory>
 
 #include "lower/evaluate.h"
+#include "subdivide/truth_table.h"
 
 namespace whittle {
 namespace {
-
-/// Bit s of kVariable[i] is bit i of s: the truth table of literal i alone.
-constexpr uint64_t kVariable[kTableLiterals] = {0xaaaaaaaaaaaaaaaa, 0xcccccccccccccccc,
-                                                0xf0f0f0f0f0f0f0f0, 0xff00ff00ff00ff00,
-                                                0xffff0000ffff0000, 0xffffffff00000000};
-
-/// The rows of a table over n literals.
-uint64_t rows(uint32_t n) {
-  return n == kTableLiterals ? ~uint64_t(0) : (uint64_t(1) << (1u << n)) - 1;
-}
-
-bool depends_on(uint64_t table, uint32_t i) {
-  const uint64_t with = table & kVariable[i], without = table & ~kVariable[i];
-  return (with >> (1u << i)) != without;
-}
 
 /// The table without literal i, on which it does not depend; later literals move down by one.
 uint64_t without(uint64_t table, uint32_t i, uint32_t n) {
@@ -78,9 +64,9 @@ uint32_t LeafAnalysis::position(uint32_t half_space) const {
 
 void LeafAnalysis::compute_table() {
   uint32_t n = size();
-  table_ = rows(n) & evaluate<uint64_t>(formula_, ~uint64_t(0), [&](Token token) {
+  table_ = table_rows(n) & evaluate<uint64_t>(formula_, ~uint64_t(0), [&](Token token) {
              const Literal literal = scene_.faces[token.payload()].literal;
-             const uint64_t inside = kVariable[position(literal >> 1)];
+             const uint64_t inside = kTableOf[position(literal >> 1)];
              return bool(literal & 1) != token.negated() ? ~inside : inside;
            });
   // Drop, from the last, what the function does not depend on (equal cofactors).

@@ -12,12 +12,6 @@
 namespace whittle {
 namespace {
 
-Model facetted_model(const std::string& text) {
-  ReadOptions options;
-  options.curves = Curves::kFacets;
-  return model_of(text, "test.csg", options);
-}
-
 bool is_curved(const std::string& text) {
   const Result<Scene> scene = lower(model_of(text));
   return !scene ||
@@ -44,11 +38,11 @@ TEST(CoincidentBoundary, IsClosedAndEnclosesTheSame) {
                               facet_scenes, algebra_scenes, tolerance_scenes, menger_scenes}) {
     for (const CoincidentScene& scene : chapter()) {
       SCOPED_TRACE(scene.name);
-      const std::optional<double> its = closed_volume(facetted_model(scene.text));
+      const std::optional<double> its = closed_volume(facetted_model_of(scene.text));
       // Some are equal only as far as they are looked at.
       if (!its || scene.formula || scene.only_looks) continue;
       if (is_curved(scene.text) || is_curved(scene.equal)) continue;
-      const std::optional<double> right = closed_volume(facetted_model(scene.equal));
+      const std::optional<double> right = closed_volume(facetted_model_of(scene.equal));
       if (!right) continue;
       ++compared;
       EXPECT_NEAR(*its, *right, 1e-4 * *right);
@@ -63,7 +57,7 @@ TEST(CoincidentBoundary, IsClosedInAnotherPlace) {
     for (const CoincidentScene& scene : chapter()) {
       if (!scene.turns) continue;
       SCOPED_TRACE(scene.name);
-      const Model model = facetted_model(scene.text);
+      const Model model = facetted_model_of(scene.text);
       for (const bool mirrored : {false, true})
         closed_volume(turned(model, turn_of(model, mirrored)));
     }

@@ -18,12 +18,6 @@
 namespace whittle {
 namespace {
 
-Model facetted(const std::string& text) {
-  ReadOptions options;
-  options.curves = Curves::kFacets;
-  return model_of(text, "fuzz.csg", options);
-}
-
 /// Points at random, but for those so near to a surface that rounding decides.
 void check_points(const Scene& scene, const SolidMesh& mesh, const std::string& text) {
   constexpr int kPoints = 12;
@@ -46,10 +40,10 @@ void check_points(const Scene& scene, const SolidMesh& mesh, const std::string& 
 
 void check(std::span<const uint8_t> bytes) {
   PictureInput input = decode_picture(bytes, 0);
-  Model model = facetted(input.text);
+  Model model = facetted_model_of(input.text);
   if (input.uses_nearly) {
     input = decode_picture(bytes, tolerance(bounds(model)));
-    model = facetted(input.text);
+    model = facetted_model_of(input.text);
   }
   const Result<Scene> scene = lower(model);
   if (!scene || !scene->bounded) return;

@@ -18,4 +18,9 @@ inline Model model_of(std::string_view text, const std::string& name = "test.csg
   return std::move(read->model);
 }
 
+/// The same with OpenSCAD's facets for all curves.
+inline Model facetted_model_of(std::string_view text) {
+  return model_of(text, "test.csg", {.curves = Curves::kFacets});
+}
+
 }  // namespace whittle

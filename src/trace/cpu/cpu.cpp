@@ -41,15 +41,6 @@ struct TileOrder {
 };
 constexpr TileOrder kTileOrder;
 
-/// One after the other.
-struct InOrder {
-  std::array<uint32_t, kTileRays> place;
-  constexpr InOrder() : place() {
-    for (uint32_t i = 0; i < kTileRays; ++i) place[i] = i;
-  }
-};
-constexpr InOrder kInOrder;
-
 class CpuTracerImpl final : public CpuTracer {
  public:
   CpuTracerImpl(const Scene& scene, const CellTree& tree, int threads)
@@ -86,17 +77,16 @@ class CpuTracerImpl final : public CpuTracer {
       std::fill(hits.begin(), hits.end(), Hit{});
       return;
     }
-    workers_.for_parts(positions.size(), kProbeChunk,
-                       [&](size_t first, size_t last, size_t worker) {
-                         LaneScratch& scratch = scratches_.of(worker, lanes_);
-                         for (size_t i = first; i < last;) {
-                           const auto left = positions.subspan(i, last - i);
-                           const size_t count = close_together(left);
-                           trace_lanes(lanes_, camera, left.first(count), kInOrder.place.data(),
-                                       &hits[i], scratch);
-                           i += count;
-                         }
-                       });
+    workers_.for_parts(
+        positions.size(), kProbeChunk, [&](size_t first, size_t last, size_t worker) {
+          LaneScratch& scratch = scratches_.of(worker, lanes_);
+          for (size_t i = first; i < last;) {
+            const auto left = positions.subspan(i, last - i);
+            const size_t count = close_together(left);
+            trace_lanes(lanes_, camera, left.first(count), kInOrder.data(), &hits[i], scratch);
+            i += count;
+          }
+        });
   }
 
   void cast(std::span<const Ray> rays, std::span<Hit> hits) override {

@@ -432,13 +432,11 @@ void trace_positions(const LaneScene& scene, const Camera& camera,
 
 void trace_rays(const LaneScene& scene, std::span<const Ray> all, Hit* hits, LaneScratch& scratch) {
   scratch.stats.rays += all.size();
-  std::array<uint32_t, kTileRays> places;
-  for (uint32_t i = 0; i < kTileRays; ++i) places[i] = i;
   for (size_t first = 0; first < all.size(); first += Tile::most_rays()) {
     Tile tile;
     tile.make_rays(scene, all.subspan(first, std::min(Tile::most_rays(), all.size() - first)));
     Walk(scene, tile, scratch, 0, nullptr).all();
-    tile.write(scene, places.data(), hits + first);
+    tile.write(scene, kInOrder.data(), hits + first);
   }
 }
 

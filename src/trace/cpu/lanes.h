@@ -42,6 +42,13 @@ inline constexpr size_t kMaxLanes = 8;
 inline constexpr size_t kTileRays = 256;  ///< rays in a tile, at most
 inline constexpr size_t kGroupRays = 64;  ///< of them, in a group that is solved in one go, at most
 
+/// Places of hits one after the other.
+inline constexpr std::array<uint32_t, kTileRays> kInOrder = [] {
+  std::array<uint32_t, kTileRays> places{};
+  for (uint32_t i = 0; i < kTileRays; ++i) places[i] = i;
+  return places;
+}();
+
 /// A leaf with more literals than this is long: of its literals nothing is kept but signs, and the
 /// rest is computed again where it is needed.
 inline constexpr size_t kKeptLiterals = 16;
