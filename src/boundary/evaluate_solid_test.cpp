@@ -89,6 +89,21 @@ TEST(EvaluateSolid, CheckerboardComesApart) {
   EXPECT_EQ(mesh.corners.size(), size_t(8 * count));
 }
 
+/// Two notches in a block that touch in an edge: the block is around both of its ends, so its two
+/// halves cannot come apart there.
+TEST(EvaluateSolid, AnEdgeBetweenTheSameCornersTwiceGetsAMiddle) {
+  const std::string text =
+      "difference() { translate([-1, -1, -1]) cube(size = [2, 2, 3]);"
+      " translate([0, 0, 0]) cube(size = [2, 2, 1]);"
+      " translate([-2, -2, 0]) cube(size = [2, 2, 1]); }";
+  BoundaryStats stats;
+  const SolidMesh mesh = solid(facetted(text), &stats);
+  EXPECT_EQ(manifold_fault(mesh), "");
+  EXPECT_DOUBLE_EQ(volume(mesh), 10);
+  EXPECT_EQ(stats.shared_edges, 1u);
+  EXPECT_EQ(std::ranges::count(mesh.corners, Vec3{0, 0, 0.5}), 1);
+}
+
 TEST(EvaluateSolid, NothingAndNoEnd) {
   EXPECT_TRUE(solid(facetted("")).triangles.empty());
   EXPECT_TRUE(
