@@ -93,17 +93,6 @@ PlaneSide ExactGeometry::exact_side(const std::array<uint32_t, 3>& point, uint32
   return PlaneSide(exact.sign());
 }
 
-PlaneSide ExactGeometry::side(const ApproximatePoint& point, uint32_t number) const {
-  const RoundedPlane& p = rounded(number);
-  const double value = dot(p.n, point.y) - p.d;
-  // The components of a normal add up to no more than 3; the rest is rounding here.
-  const double error =
-      3 * point.error + 0x1p-49 * (2 * max_component(abs(point.y)) + std::fabs(p.d));
-  if (value > error) return 1;
-  if (value < -error) return -1;
-  return exact_side(point.planes, number);
-}
-
 PlaneSide ExactGeometry::side(const ExactPoint& point, uint32_t number) const {
   const ExactPlane& p = plane(number);
   // n.y - d, times 2^kFractionBits: what rounding has taken away adds between `low` and `high`.

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "boundary/exact_plane.h"
@@ -48,7 +49,16 @@ class ExactGeometry {
 
   /// On which side of a plane a point is; 0: on it.
   PlaneSide side(const ExactPoint& point, uint32_t plane) const;
-  PlaneSide side(const ApproximatePoint& point, uint32_t plane) const;
+  PlaneSide side(const ApproximatePoint& point, uint32_t plane) const {
+    const RoundedPlane& p = rounded(plane);
+    const double value = dot(p.n, point.y) - p.d;
+    // The components of a normal add up to no more than 3; the rest is rounding here.
+    const double error =
+        3 * point.error + 0x1p-49 * (2 * max_component(abs(point.y)) + std::fabs(p.d));
+    if (value > error) return 1;
+    if (value < -error) return -1;
+    return exact_side(point.planes, plane);
+  }
   bool is_same(const ExactPoint& p, const ExactPoint& q) const;
   /// -1, 0, 1: p's coordinate is less, equal, greater. Points in the region.
   int compare(const ExactPoint& p, const ExactPoint& q, int axis) const;

@@ -2,9 +2,8 @@
 
 #include <optional>
 
-#include "subdivide/truth_table.h"
-
 namespace whittle {
+
 void LocalPlanes::clear() {
   for (const uint32_t plane : planes_) numbers_[plane] = kNone;
   planes_.clear();
@@ -37,28 +36,29 @@ std::optional<bool> LeafFunction::is_inside(const Literal& literal,
   return side == literal.inside;
 }
 
-LeafFunction::Answer LeafFunction::at(std::span<const PlaneSide> sides, uint32_t& from) const {
-  if (link_.kind() == CellKind::kEmpty) return {false};
-  if (link_.kind() == CellKind::kFull) return {true};
-  if (literals_.size() <= kTableLiterals) return by_table(sides);
-  return link_.kind() == CellKind::kProgram ? by_program(sides, from) : by_group(sides);
+void LeafFunction::learn(State& state, uint32_t local_plane, PlaneSide side) const {
+  if (!has_table()) return;
+  for (uint32_t i = 0; i < literals_.size(); ++i) {
+    if (literals_[i].local != local_plane) continue;
+    // Both halves of the table become the one that is known to hold.
+    const unsigned width = 1u << i;
+    const bool inside = side == literals_[i].inside;
+    const uint64_t half = inside ? state.table & kTableOf[i] : state.table & ~kTableOf[i];
+    state.table = inside ? half | half >> width : half | half << width;
+  }
 }
 
-LeafFunction::Answer LeafFunction::by_table(std::span<const PlaneSide> sides) const {
-  const auto count = uint32_t(literals_.size());
-  const uint64_t rows = table_rows(count);
-  // Both halves of the table become the one that is known to hold.
-  uint64_t table = link_.leaf().table & rows;
-  for (uint32_t i = 0; i < count; ++i) {
-    const std::optional<bool> inside = is_inside(literals_[i], sides);
-    if (!inside) continue;
-    const unsigned width = 1u << i;
-    const uint64_t half = *inside ? table & kTableOf[i] : table & ~kTableOf[i];
-    table = *inside ? half | half >> width : half | half << width;
-  }
+LeafFunction::Answer LeafFunction::at(State& state, std::span<const PlaneSide> sides) const {
+  if (link_.kind() == CellKind::kEmpty) return {false};
+  if (link_.kind() == CellKind::kFull) return {true};
+  if (has_table()) return by_table(state.table);
+  return link_.kind() == CellKind::kProgram ? by_program(sides, state.step) : by_group(sides);
+}
+
+LeafFunction::Answer LeafFunction::by_table(uint64_t table) const {
   if (table == 0) return {false};
-  if (table == rows) return {true};
-  for (uint32_t i = 0; i < count; ++i)
+  if (table == rows()) return {true};
+  for (uint32_t i = 0; i < literals_.size(); ++i)
     if (depends_on(table, i)) return {std::nullopt, literals_[i].local};
   return {false};
 }
@@ -78,9 +78,8 @@ LeafFunction::Answer LeafFunction::by_group(std::span<const PlaneSide> sides) co
 }
 
 LeafFunction::Answer LeafFunction::by_program(std::span<const PlaneSide> sides,
-                                              uint32_t& from) const {
+                                              uint32_t& at) const {
   const std::span<const Step> steps = link_.leaf().steps();
-  uint32_t& at = from;
   while (at < kAnswerFalse) {
     const Step& step = steps[at];
     const Literal& literal = literals_[step.literal >> 1];

@@ -2,33 +2,34 @@
 
 #include <algorithm>
 #include <tuple>
-#include <utility>
 
 namespace whittle {
 
-PointCache::Entry& PointCache::find(const std::array<uint32_t, 3>& planes) {
+PointNames::Entry& PointNames::find(const std::array<uint32_t, 3>& planes) {
   uint64_t hash = 0;
   for (const uint32_t plane : planes)
     hash = (hash ^ plane) * 0x9e3779b97f4a7c15, hash ^= hash >> 32;
   const size_t mask = entries_.size() - 1;
   size_t at = hash & mask;
-  while (entries_[at].when == now_ && entries_[at].planes != planes) at = (at + 1) & mask;
+  while (entries_[at].when == now_ && names_[entries_[at].name].planes != planes)
+    at = (at + 1) & mask;
   return entries_[at];
 }
 
-uint32_t& PointCache::number(std::array<uint32_t, 3> planes) {
-  std::sort(planes.begin(), planes.end());
-  Entry* entry = &find(planes);
-  if (entry->when == now_) return entry->number;
-  if (2 * ++count_ > entries_.size()) {
-    const std::vector<Entry> before =
-        std::exchange(entries_, std::vector<Entry>(2 * entries_.size()));
-    for (const Entry& old : before)
-      if (old.when == now_) find(old.planes) = old;
-    entry = &find(planes);
+uint32_t PointNames::add(const std::array<uint32_t, 3>& planes) {
+  std::array<uint32_t, 3> sorted = planes;
+  std::sort(sorted.begin(), sorted.end());
+  Entry* entry = &find(sorted);
+  if (entry->when == now_) return entry->name;
+  const auto name = uint32_t(names_.size());
+  if (2 * (names_.size() + 1) > entries_.size()) {
+    entries_.assign(2 * entries_.size(), {});
+    for (uint32_t i = 0; i < names_.size(); ++i) find(names_[i].planes) = {now_, i};
+    entry = &find(sorted);
   }
-  *entry = {now_, planes, kNone};
-  return entry->number;
+  *entry = {now_, name};
+  names_.push_back({sorted, kNone});
+  return name;
 }
 
 /// A plane's part over a rectangle square to an axis to which the plane is not parallel. Runs
@@ -36,144 +37,191 @@ uint32_t& PointCache::number(std::array<uint32_t, 3> planes) {
 PieceMaker::Polygon PieceMaker::rectangle(uint32_t plane, int axis, const CellSides& sides) {
   const size_t u = size_t(axis + 1) % 3, v = size_t(axis + 2) % 3;
   const std::array<uint32_t, 4> around = {sides.lo[v], sides.hi[u], sides.hi[v], sides.lo[u]};
-  Polygon polygon;
+  const Polygon polygon{uint32_t(corners_.size()), 4};
   const bool is_turned = geometry_.plane(plane).n[size_t(axis)] < 0;
   for (size_t i = 0; i < 4; ++i) {
     const size_t at = is_turned ? 3 - i : i, before = (at + 3) % 4;
-    const uint32_t point = uint32_t(points_.size());
+    corners_.push_back({uint32_t(points_.size()), is_turned ? around[before] : around[at]});
     points_.push_back(geometry_.about(plane, around[before], around[at]));
-    polygon.push_back({point, is_turned ? around[before] : around[at]});
   }
   return polygon;
 }
 
-void PieceMaker::look(const Polygon& polygon, uint32_t by, bool& has_below, bool& has_above) {
+void PieceMaker::look(Polygon polygon, uint32_t by, bool& has_below, bool& has_above) {
   signs_.clear();
   has_below = has_above = false;
-  for (const Corner& corner : polygon) {
-    const PlaneSide side = geometry_.side(points_[corner.point], by);
+  for (uint32_t i = 0; i < polygon.count; ++i) {
+    const PlaneSide side = geometry_.side(points_[corners_[polygon.first + i].point], by);
     signs_.push_back(side);
     has_below = has_below || side < 0;
     has_above = has_above || side > 0;
   }
 }
 
-void PieceMaker::cut(const Polygon& polygon, uint32_t plane, uint32_t by, PlaneSide keep,
-                     Polygon& part) {
-  part.clear();
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const int here = signs_[i] * keep, after = signs_[(i + 1) % polygon.size()] * keep;
-    const Corner& corner = polygon[i];
-    if (here >= 0) part.push_back({corner.point, here == 0 && after < 0 ? by : corner.edge_plane});
+PieceMaker::Polygon PieceMaker::cut(Polygon polygon, uint32_t plane, uint32_t by, PlaneSide keep) {
+  const auto first = uint32_t(corners_.size());
+  for (uint32_t i = 0; i < polygon.count; ++i) {
+    const uint32_t next = i + 1 < polygon.count ? i + 1 : 0;
+    const int here = signs_[i] * keep, after = signs_[next] * keep;
+    const Corner corner = corners_[polygon.first + i];
+    if (here >= 0)
+      corners_.push_back({corner.point, here == 0 && after < 0 ? by : corner.edge_plane});
     if (here * after >= 0) continue;
-    const uint32_t point = uint32_t(points_.size());
+    corners_.push_back({uint32_t(points_.size()), here > 0 ? by : corner.edge_plane});
     points_.push_back(geometry_.about(plane, corner.edge_plane, by));
-    part.push_back({point, here > 0 ? by : corner.edge_plane});
   }
+  return {first, uint32_t(corners_.size()) - first};
 }
 
-void PieceMaker::clip(Polygon& polygon, uint32_t by, PlaneSide keep, uint32_t plane) {
-  if (polygon.empty()) return;
+PieceMaker::Polygon PieceMaker::clip(Polygon polygon, uint32_t plane, uint32_t by, PlaneSide keep) {
   bool has_below, has_above;
   look(polygon, by, has_below, has_above);
   const bool has_kept = keep < 0 ? has_below : has_above,
              has_rest = keep < 0 ? has_above : has_below;
-  if (!has_kept) polygon.clear();
-  if (!has_kept || !has_rest) return;
-  Polygon part;
-  cut(polygon, plane, by, keep, part);
-  polygon = std::move(part);
+  if (!has_kept) return {};
+  return has_rest ? cut(polygon, plane, by, keep) : polygon;
+}
+
+void PieceMaker::learn(Open& part, uint32_t local_plane, PlaneSide side, const LeafFunction& below,
+                       const LeafFunction& above) {
+  sides_[local_plane] = side;
+  known_.push_back(local_plane);
+  below.learn(part.below, local_plane, side);
+  above.learn(part.above, local_plane, side);
+}
+
+/// Splits a polygon where the functions ask for it, and emits what is solid on one side alone.
+void PieceMaker::split(Polygon polygon, uint32_t plane, uint32_t own, const LeafFunction& below,
+                       const LeafFunction& above) {
+  sides_.assign(local_.all().size(), 0);
+  known_.clear();
+  open_.clear();
+  Open part{polygon, below.start(), above.start()};
+  // The plane itself has each of the two on one side.
+  below.learn(part.below, own, -1);
+  above.learn(part.above, own, 1);
+  while (true) {
+    sides_[own] = -1;
+    const LeafFunction::Answer low = below.at(part.below, sides_);
+    sides_[own] = 1;
+    const LeafFunction::Answer high = above.at(part.above, sides_);
+    if (low.value && high.value) {
+      if (*low.value != *high.value) emit(part.polygon, sheet_of(plane, *high.value));
+      if (open_.empty()) return;
+      part = open_.back();
+      open_.pop_back();
+      for (; known_.size() > part.known; known_.pop_back()) sides_[known_.back()] = 0;
+      learn(part, part.asked, 1, below, above);
+      continue;
+    }
+    const uint32_t asks = low.value ? high.asks : low.asks;
+    const uint32_t by = local_.all()[asks];
+    bool has_below, has_above;
+    look(part.polygon, by, has_below, has_above);
+    if (has_below && has_above) {
+      open_.push_back({cut(part.polygon, plane, by, 1), part.below, part.above,
+                       uint32_t(known_.size()), asks});
+      part.polygon = cut(part.polygon, plane, by, -1);
+    }
+    learn(part, asks, has_below ? -1 : 1, below, above);
+  }
+}
+
+/// The same where the function on both sides is one conjunction or one disjunction: the plane's
+/// side decides where all others leave it to that.
+void PieceMaker::clip_group(Polygon polygon, uint32_t plane, uint32_t own,
+                            const LeafFunction& group) {
+  const bool is_conjunction = group.kind() == CellKind::kConjunction;
+  PlaneSide own_side = 0;
+  for (const LeafFunction::Literal& literal : group.literals()) {
+    // Where the literal leaves it to the others.
+    const PlaneSide side =
+        literal.negated == is_conjunction ? PlaneSide(-literal.inside) : literal.inside;
+    if (literal.local == own) {
+      if (own_side == -side) return;
+      own_side = side;
+    } else {
+      polygon = clip(polygon, plane, local_.all()[literal.local], side);
+      if (polygon.count == 0) return;
+    }
+  }
+  emit(polygon, sheet_of(plane, (own_side > 0) == is_conjunction));
 }
 
 void PieceMaker::fill(Polygon polygon, uint32_t plane, const LeafFunction& below,
                       const LeafFunction& above, Pieces& out) {
   const uint32_t own = local_.add(plane);
+  edges_.clear();
+  pieces_ = 0;
+  const bool is_group =
+      below.kind() == CellKind::kConjunction || below.kind() == CellKind::kDisjunction;
+  if (&below == &above && is_group)
+    clip_group(polygon, plane, own, below);
+  else
+    split(polygon, plane, own, below, above);
+  if (pieces_ > 1) cancel();
+  if (edges_.empty()) return;
   uint32_t owner = below.owner(scene_, own);
-  if (const uint32_t other = above.owner(scene_, own);
-      owner == kSharedOwner || (other != kSharedOwner && other < owner))
-    owner = other;
-  const size_t first_edge = out.edges.size(), first_piece = out.count;
-  open_.clear();
-  open_.push_back({std::move(polygon), std::vector<PlaneSide>(local_.all().size(), 0)});
-  while (!open_.empty()) {
-    Open part = std::move(open_.back());
-    open_.pop_back();
-    while (true) {
-      // The plane itself has each of the two on one side.
-      part.sides[own] = -1;
-      const LeafFunction::Answer low = below.at(part.sides, part.below_from);
-      part.sides[own] = 1;
-      const LeafFunction::Answer high = above.at(part.sides, part.above_from);
-      if (low.value && high.value) {
-        if (*low.value != *high.value) emit(part.polygon, sheet_of(plane, *high.value), out);
-        break;
-      }
-      const uint32_t asks = low.value ? high.asks : low.asks;
-      const uint32_t by = local_.all()[asks];
-      bool has_below, has_above;
-      look(part.polygon, by, has_below, has_above);
-      if (has_below && has_above) {
-        Open other{{}, part.sides, part.below_from, part.above_from};
-        cut(part.polygon, plane, by, 1, other.polygon);
-        other.sides[asks] = 1;
-        Polygon rest;
-        cut(part.polygon, plane, by, -1, rest);
-        part.polygon = std::move(rest);
-        open_.push_back(std::move(other));
-      }
-      part.sides[asks] = has_below ? -1 : 1;
-    }
+  if (&below != &above) {
+    const uint32_t other = above.owner(scene_, own);
+    if (owner == kSharedOwner || (other != kSharedOwner && other < owner)) owner = other;
   }
-  if (out.count > first_piece + 1) cancel(first_edge, out);
   for (const Sheet sheet : {sheet_of(plane, false), sheet_of(plane, true)}) {
     const auto is_on = [&](const Pieces::Edge& edge) { return edge.sheet == sheet; };
-    if (std::any_of(out.edges.begin() + std::ptrdiff_t(first_edge), out.edges.end(), is_on))
-      out.owners.push_back({sheet, owner});
+    if (std::any_of(edges_.begin(), edges_.end(), is_on)) out.owners.push_back({sheet, owner});
   }
+  release(out);
 }
 
-void PieceMaker::emit(const Polygon& polygon, Sheet sheet, Pieces& out) {
+void PieceMaker::emit(Polygon polygon, Sheet sheet) {
   const bool is_turned = sheet & 1;
   numbers_.clear();
-  for (const Corner& corner : polygon) {
-    const std::array<uint32_t, 3>& planes = points_[corner.point].planes;
-    uint32_t& number = emitted_.number(planes);
-    if (number == PointCache::kNone) {
-      number = uint32_t(out.points.size());
-      out.points.push_back(geometry_.meet(planes[0], planes[1], planes[2]));
-    }
-    numbers_.push_back(number);
+  for (uint32_t i = 0; i < polygon.count; ++i)
+    numbers_.push_back(names_.add(points_[corners_[polygon.first + i].point].planes));
+  for (uint32_t i = 0; i < polygon.count; ++i) {
+    const uint32_t from = numbers_[i], to = numbers_[i + 1 < polygon.count ? i + 1 : 0];
+    edges_.push_back({sheet, corners_[polygon.first + i].edge_plane, is_turned ? to : from,
+                      is_turned ? from : to});
   }
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    const uint32_t from = numbers_[i], to = numbers_[(i + 1) % polygon.size()];
-    out.edges.push_back(
-        {sheet, polygon[i].edge_plane, is_turned ? to : from, is_turned ? from : to});
-  }
-  ++out.count;
+  ++pieces_;
 }
 
-/// Leaves out the edges from `first` on of which there are two that run opposite ways.
-void PieceMaker::cancel(size_t first, Pieces& out) {
+/// Leaves out the edges of which there are two that run opposite ways.
+void PieceMaker::cancel() {
   const auto key = [](const Pieces::Edge& edge) {
     const auto [low, high] = std::minmax(edge.from, edge.to);
     return std::tuple(low, high, edge.sheet);
   };
-  const auto begin = out.edges.begin() + std::ptrdiff_t(first);
-  std::sort(begin, out.edges.end(),
+  std::sort(edges_.begin(), edges_.end(),
             [&](const Pieces::Edge& a, const Pieces::Edge& b) { return key(a) < key(b); });
-  auto kept = begin;
-  for (auto edge = begin; edge != out.edges.end(); ++edge) {
-    if (kept != begin && key(*(kept - 1)) == key(*edge) && (kept - 1)->from == edge->to)
+  auto kept = edges_.begin();
+  for (const Pieces::Edge& edge : edges_) {
+    if (kept != edges_.begin() && key(*(kept - 1)) == key(edge) && (kept - 1)->from == edge.to)
       --kept;
     else
-      *kept++ = *edge;
+      *kept++ = edge;
   }
-  out.edges.erase(kept, out.edges.end());
+  edges_.erase(kept, edges_.end());
+}
+
+/// Only what is left needs its points exactly.
+void PieceMaker::release(Pieces& out) {
+  const auto number = [&](uint32_t name) {
+    PointNames::Name& named = names_[name];
+    if (named.number == PointNames::kNone) {
+      named.number = uint32_t(out.points.size());
+      out.points.push_back(geometry_.meet(named.planes[0], named.planes[1], named.planes[2]));
+    }
+    return named.number;
+  };
+  for (const Pieces::Edge& edge : edges_)
+    out.edges.push_back({edge.sheet, edge.plane, number(edge.from), number(edge.to)});
+  out.count += pieces_;
 }
 
 void PieceMaker::within(CellLink leaf, const CellSides& cell, Pieces& out) {
   local_.clear();
-  emitted_.clear();
+  names_.clear();
   below_.set(leaf, half_spaces_, local_);
   const std::vector<uint32_t> planes(local_.all().begin(), local_.all().end());
   for (const uint32_t plane : planes) {
@@ -182,21 +230,23 @@ void PieceMaker::within(CellLink leaf, const CellSides& cell, Pieces& out) {
     };
     if (is_side(cell.lo) || is_side(cell.hi)) continue;
     points_.clear();
+    corners_.clear();
     const int axis = largest_axis(geometry_.plane(plane));
     Polygon polygon = rectangle(plane, axis, cell);
-    clip(polygon, cell.lo[size_t(axis)], 1, plane);
-    clip(polygon, cell.hi[size_t(axis)], -1, plane);
-    if (!polygon.empty()) fill(std::move(polygon), plane, below_, below_, out);
+    polygon = clip(polygon, plane, cell.lo[size_t(axis)], 1);
+    if (polygon.count > 0) polygon = clip(polygon, plane, cell.hi[size_t(axis)], -1);
+    if (polygon.count > 0) fill(polygon, plane, below_, below_, out);
   }
 }
 
 void PieceMaker::between(CellLink below, CellLink above, int axis, const CellSides& sides,
                          Pieces& out) {
   local_.clear();
-  emitted_.clear();
+  names_.clear();
   below_.set(below, half_spaces_, local_);
   above_.set(above, half_spaces_, local_);
   points_.clear();
+  corners_.clear();
   const uint32_t plane = sides.lo[size_t(axis)];
   fill(rectangle(plane, axis, sides), plane, below_, above_, out);
 }

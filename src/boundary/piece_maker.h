@@ -17,24 +17,28 @@ struct CellSides {
   std::array<uint32_t, 3> lo{}, hi{};
 };
 
-/// The exact points of one cell, by their planes.
-class PointCache {
+/// Numbers for points of one cell, by their planes, from 0.
+class PointNames {
  public:
-  void clear() { ++now_, count_ = 0; }
-  /// The place of a point's number, which is kNone if it is new. Until the next call.
-  uint32_t& number(std::array<uint32_t, 3> planes);
+  struct Name {
+    std::array<uint32_t, 3> planes{};
+    uint32_t number = kNone;  ///< into Pieces::points, once it is there
+  };
   static constexpr uint32_t kNone = UINT32_MAX;
+
+  void clear() { ++now_, names_.clear(); }
+  uint32_t add(const std::array<uint32_t, 3>& planes);
+  Name& operator[](uint32_t name) { return names_[name]; }
 
  private:
   struct Entry {
     uint64_t when = 0;
-    std::array<uint32_t, 3> planes{};
-    uint32_t number = kNone;
+    uint32_t name = 0;
   };
   Entry& find(const std::array<uint32_t, 3>& planes);
   std::vector<Entry> entries_ = std::vector<Entry>(256);
+  std::vector<Name> names_;
   uint64_t now_ = 1;
-  size_t count_ = 0;
 };
 
 /// Used by one thread at a time.
@@ -59,32 +63,51 @@ class PieceMaker {
     uint32_t point;  ///< into points_
     uint32_t edge_plane;
   };
-  using Polygon = std::vector<Corner>;
+  /// A row of corners_.
+  struct Polygon {
+    uint32_t first = 0, count = 0;
+  };
+  /// A part that is looked at later.
   struct Open {
     Polygon polygon;
-    std::vector<PlaneSide> sides;             ///< by local plane
-    uint32_t below_from = 0, above_from = 0;  ///< how far the two functions have come
+    LeafFunction::State below, above;
+    uint32_t known = 0;  ///< so many of known_ are known of it
+    uint32_t asked = 0;  ///< and that it is above this plane
   };
 
   Polygon rectangle(uint32_t plane, int axis, const CellSides& sides);
-  void clip(Polygon& polygon, uint32_t by, PlaneSide keep, uint32_t plane);
-  /// The part of a polygon on one side of a plane; `signs`: of its corners.
-  void cut(const Polygon& polygon, uint32_t plane, uint32_t by, PlaneSide keep, Polygon& part);
   /// Which sides of a plane the corners are on; fills signs_.
-  void look(const Polygon& polygon, uint32_t by, bool& has_below, bool& has_above);
+  void look(Polygon polygon, uint32_t by, bool& has_below, bool& has_above);
+  /// The part of a polygon on one side of a plane that was looked at.
+  Polygon cut(Polygon polygon, uint32_t plane, uint32_t by, PlaneSide keep);
+  Polygon clip(Polygon polygon, uint32_t plane, uint32_t by, PlaneSide keep);
   void fill(Polygon polygon, uint32_t plane, const LeafFunction& below, const LeafFunction& above,
             Pieces& out);
-  void emit(const Polygon& polygon, Sheet sheet, Pieces& out);
-  static void cancel(size_t first, Pieces& out);
+  void split(Polygon polygon, uint32_t plane, uint32_t own, const LeafFunction& below,
+             const LeafFunction& above);
+  void clip_group(Polygon polygon, uint32_t plane, uint32_t own, const LeafFunction& group);
+  void learn(Open& part, uint32_t local_plane, PlaneSide side, const LeafFunction& below,
+             const LeafFunction& above);
+  void emit(Polygon polygon, Sheet sheet);
+  void cancel();
+  void release(Pieces& out);
 
   const Scene& scene_;
   const ExactGeometry& geometry_;
   std::span<const PlacedHalfSpace> half_spaces_;
   LocalPlanes local_;
   LeafFunction below_, above_;
+  // Of a cell.
+  PointNames names_;
+  // Of a plane in it.
   std::vector<ApproximatePoint> points_;
-  PointCache emitted_;
+  std::vector<Corner> corners_;
+  std::vector<Pieces::Edge> edges_;  ///< ends are in names_
+  size_t pieces_ = 0;
+  // Of a part of that.
   std::vector<PlaneSide> signs_;
+  std::vector<PlaneSide> sides_;  ///< by local plane, 0 if it is not known
+  std::vector<uint32_t> known_;   ///< local planes, in the order in which they were asked
   std::vector<uint32_t> numbers_;
   std::vector<Open> open_;
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace whittle {
 
@@ -104,11 +105,11 @@ class WideInt {
     return result;
   }
 
-  /// To about the precision of a double.
-  double rounded() const {
+  /// To about the precision of a long double.
+  long double rounded() const {
     if (is_negative()) return -(-*this).rounded();
-    double value = 0;
-    for (size_t i = N; i-- > 0;) value = value * 0x1p64 + double(words_[i]);
+    long double value = 0;
+    for (size_t i = N; i-- > 0;) value = value * 0x1p64L + (long double)(words_[i]);
     return value;
   }
 
@@ -133,10 +134,11 @@ constexpr WideInt<3> product(Int128 a, Int128 b) {
 /// Precondition: b > 0, and the quotient is less than 2^62.
 template <size_t N>
 int64_t floor_of_quotient(WideInt<N> a, const WideInt<N>& b, bool& is_whole) {
-  const double divisor = b.rounded();
+  // A round leaves of the rest what a long double does not know.
+  constexpr int kRounds = std::numeric_limits<long double>::digits >= 64 ? 1 : 2;
+  const long double divisor = b.rounded();
   int64_t quotient = 0;
-  // The first round leaves of the rest what a double does not know, the second about nothing.
-  for (int round = 0; round < 2; ++round) {
+  for (int round = 0; round < kRounds; ++round) {
     const auto part = int64_t(std::floor(a.rounded() / divisor));
     quotient += part;
     a -= b.times(part);
