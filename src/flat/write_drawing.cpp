@@ -1,20 +1,13 @@
 #include "flat/write_drawing.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
+#include "base/append_number.h"
+
 namespace whittle {
 namespace {
-
-/// The shortest decimals; of -0 none are needed.
-void append(std::string& out, double value) {
-  std::array<char, 40> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value + 0.0).ptr;
-  out.append(text.data(), size_t(end - text.data()));
-}
 
 Rect bounds_of(std::span<const Contour> contours) {
   Rect box{contours[0][0], contours[0][0]};
@@ -35,7 +28,7 @@ std::string svg(std::span<const Contour> contours) {
 /// A pair of a group code and its value.
 void append_pair(std::string& out, std::string_view code, double value) {
   out += code;
-  append(out, value);
+  append_number(out, value);
   out += '\n';
 }
 
@@ -74,14 +67,14 @@ SvgWriter::SvgWriter(const Rect& bounds, std::string_view title) {
       "<!DOCTYPE svg PUBLIC \"-//W3C//DTD SVG 1.1//EN\" "
       "\"http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd\">\n"
       "<svg width=\"";
-  append(out_, width);
+  append_number(out_, width);
   out_ += "mm\" height=\"";
-  append(out_, height);
+  append_number(out_, height);
   out_ += "mm\" viewBox=\"";
   const char* space = "";
   for (const double value : {left, top, width, height}) {
     out_ += std::exchange(space, " ");
-    append(out_, value);
+    append_number(out_, value);
   }
   out_ += "\" xmlns=\"http://www.w3.org/2000/svg\" version=\"1.1\">\n<title>";
   out_ += title;
@@ -104,9 +97,9 @@ void SvgWriter::add(std::span<const Contour> lines, bool closed, std::string_vie
     const char* step = "M ";
     for (const Vec2& p : line) {
       out_ += std::exchange(step, " L ");
-      append(out_, p.x);
+      append_number(out_, p.x);
       out_ += ',';
-      append(out_, -p.y);
+      append_number(out_, -p.y);
     }
     out_ += closed ? " z\n" : "\n";
   }
