@@ -113,7 +113,7 @@ Result<int> run(CellsArguments& a) {
   if (a.wants_statistics) {
     say_lines(statistics(read->model, *renderer, a.renderer.backend == Backend::kAuto, times));
   }
-  return code_for(*read, a.loading);
+  return code_for(*read, a.loading, "picture");
 }
 
 }  // namespace

@@ -115,10 +115,11 @@ void say_if_nothing_is_seen(const Model& model, const Frame& frame, const Loadin
                   tight_box(model).is_empty() ? "the solid is empty" : "nothing is in view"));
 }
 
-int code_for(const Read& read, const Loading& loading) {
+int code_for(const Read& read, const Loading& loading, const char* made) {
   if (!read.unsupported || loading.lenient) return kExitDone;
   return report({ErrorKind::kInput,
-                 read.refusal + "; so the picture is not what was meant (--lenient accepts that)"});
+                 fmt::format("{}; so the {} is not what was meant (--lenient accepts that)",
+                             read.refusal, made)});
 }
 
 void add_view_options(CLI::App& app, ViewOptions& view, Loading& loading) {

@@ -43,10 +43,9 @@ Result<Read> load(const std::string& file, const Loading& loading);
 
 /// Says if nothing is seen, and why.
 void say_if_nothing_is_seen(const Model& model, const Frame& frame, const Loading& loading);
-/// The exit code of a picture that was written. If something was left out that is no success,
-/// unless
-/// --lenient accepts it; then says so.
-int code_for(const Read& read, const Loading& loading);
+/// The exit code of what was made ("picture") and written. If something was left out that is no
+/// success, unless --lenient accepts it; then says so.
+int code_for(const Read& read, const Loading& loading, const char* made);
 
 /// --imgsize, --camera and what belongs to them.
 void add_view_options(CLI::App& app, ViewOptions& view);

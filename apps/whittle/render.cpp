@@ -17,18 +17,20 @@
 #include "openscad_options.h"
 #include "option_group.h"
 #include "progress.h"
-#include "solid_files.h"
+#include "shape_files.h"
 #include "statistics.h"
 #include "summary.h"
+#include "whittle/export_format.h"
 #include "whittle/output.h"
 #include "whittle/reading.h"
+#include "whittle/solid_output.h"
 
 namespace whittle {
 namespace {
 
 constexpr CommandHelp kHelp = {
     "whittle", "Exact pictures of Constructive Solid Geometry, from OpenSCAD files.",
-    "FILE -o OUT [options]      makes a picture (the default command)\n"
+    "FILE -o OUT [options]      makes a picture, or a file to print or cut (the default)\n"
     "       whittle info FILE                  says what is in a file\n"
     "       whittle cells FILE -o OUT.png      draws the cells over the model\n"
     "       whittle compare A.exr B.exr        compares the facts of two pictures\n"
@@ -53,15 +55,16 @@ constexpr CommandHelp kHelp = {
 
 struct Output {
   std::string path;
-  FileFormat format;                 ///< of a picture
-  std::optional<SolidFormat> solid;  ///< it is none
+  ExportFormat format;
+
+  bool is_picture() const { return std::holds_alternative<FileFormat>(format); }
+  bool is(FileFormat picture) const { return format == ExportFormat(picture); }
 };
 
 struct RenderArguments {
   std::string file;
   std::vector<std::string> outputs;
-  std::optional<FileFormat> export_format;
-  std::optional<SolidFormat> export_solid;
+  std::optional<ExportFormat> export_format;
   Loading loading;
   ViewOptions view;
   ShadeSettings shading;
@@ -80,23 +83,15 @@ void add_options(CommandLine& line, RenderArguments& a) {
   line.add_required("FILE", a.file);
   OptionGroup output(app, "Output"), look(app, "Look"), machine(app, "Machine");
   output.add_each("-o", "OUT",
-                  "a .png, .exr, .stl, .off or .obj, each -o one; '-': standard output",
+                  "a picture (.png, .exr), the solid (.stl, .off, .obj, .3mf, .amf)\n"
+                  "or a drawing (.svg, .dxf), each -o one; '-': standard output",
                   [&](const std::string& path) { a.outputs.push_back(path); });
   output.add_text(
-      "--export-format", "NAME",
-      names_of(format_choices()) + ", " + names_of(solid_format_choices()) +
-          ", whatever OUT ends in",
+      "--export-format", "NAME", names_of(export_format_choices()) + ",\nwhatever OUT ends in",
       [&](const std::string& name) {
-        a.export_format.reset();
-        a.export_solid.reset();
-        if (const Result<SolidFormat> solid = choose(solid_format_choices(), "format", name)) {
-          a.export_solid = *solid;
-          return;
-        }
-        const Result<FileFormat> format = choose(format_choices(), "format", name);
-        if (!format) {
+        const Result<ExportFormat> format = choose(export_format_choices(), "format", name);
+        if (!format)
           refuse("--export-format", refusal_of_format(name).value_or(format.error().message));
-        }
         a.export_format = *format;
       });
   output.add_choice("--pass", pass_choices(), "pass", "what a PNG shows: {}",
@@ -122,37 +117,27 @@ void add_options(CommandLine& line, RenderArguments& a) {
 Result<std::vector<Output>> choose_outputs(const RenderArguments& a) {
   if (a.outputs.empty()) {
     return Error{ErrorKind::kUsage,
-                 "there is no window yet; give -o FILE.png or -o FILE.exr to make a picture"};
+                 "there is no window yet; give -o FILE, which may end in " + export_endings()};
   }
   std::vector<Output> outputs;
   for (const std::string& path : a.outputs) {
-    Output output{path, FileFormat::kPng, a.export_solid};
     const auto is_standard = [](const Output& other) { return other.path == "-"; };
     if (path == "-" && std::ranges::any_of(outputs, is_standard)) {
       return Error{ErrorKind::kUsage, "-o - (standard output) is given more than once"};
     }
     if (a.export_format) {
-      output.format = *a.export_format;
-    } else if (a.export_solid) {
-      output.solid = a.export_solid;
-    } else if (const std::optional<SolidFormat> solid = solid_format_of(path)) {
-      output.solid = solid;
-    } else if (path == "-") {
-      return Error{ErrorKind::kUsage,
-                   fmt::format("-o - (standard output) needs --export-format {}, {}",
-                               names_of(format_choices()), names_of(solid_format_choices()))};
-    } else {
-      const Result<FileFormat> format = format_of(path);
-      if (!format) {
-        const std::optional<std::string> refusal = refusal_of_format(path);
-        return Error{ErrorKind::kUsage,
-                     refusal.value_or(fmt::format("'{}' does not end in .png, .exr, .stl, .off or "
-                                                  ".obj, so its format is not known",
-                                                  path))};
-      }
-      output.format = *format;
+      outputs.push_back({path, *a.export_format});
+      continue;
     }
-    outputs.push_back(std::move(output));
+    if (path == "-") {
+      return Error{ErrorKind::kUsage, fmt::format("-o - (standard output) needs --export-format {}",
+                                                  names_of(export_format_choices()))};
+    }
+    const Result<ExportFormat> format = export_format_of(path);
+    if (!format) {
+      return Error{ErrorKind::kUsage, refusal_of_format(path).value_or(format.error().message)};
+    }
+    outputs.push_back({path, *format});
   }
   return outputs;
 }
@@ -160,10 +145,11 @@ Result<std::vector<Output>> choose_outputs(const RenderArguments& a) {
 Status write_all(const RenderArguments& a, const std::vector<Output>& outputs, const Frame& frame,
                  const Picture& picture) {
   for (const Output& output : outputs) {
-    const bool shows_pass = output.format == FileFormat::kPng && a.pass != Pass::kColor;
-    const Result<std::string> bytes = encode(
-        output.format, frame, shows_pass ? pass_picture(frame, a.pass, !a.no_background) : picture,
-        a.no_background, output.path, a.renderer.threads);
+    const bool shows_pass = output.is(FileFormat::kPng) && a.pass != Pass::kColor;
+    const Result<std::string> bytes =
+        encode(std::get<FileFormat>(output.format), frame,
+               shows_pass ? pass_picture(frame, a.pass, !a.no_background) : picture,
+               a.no_background, output.path, a.renderer.threads);
     if (!bytes) return bytes.error();
     if (Status written = write_output(output.path, *bytes); !written) return written;
   }
@@ -181,7 +167,7 @@ Status draw(const RenderArguments& a, const std::vector<Output>& outputs, const 
   frame = *std::move(traced);
   const bool shows_color =
       a.pass == Pass::kColor || std::ranges::any_of(outputs, [](const Output& output) {
-        return output.format == FileFormat::kExr;
+        return output.is(FileFormat::kExr);
       });
   if (!shows_color) return Done{};
   progress.stage("shading");
@@ -207,7 +193,7 @@ Status check_possible(const RenderArguments& a, const std::vector<Output>& outpu
   }
   std::vector<std::string> paths;
   for (const Output& output : outputs) {
-    if (animation.frames > 0 && output.solid) {
+    if (animation.frames > 0 && !output.is_picture()) {
       return Error{ErrorKind::kUsage, "--animate makes pictures, .png or .exr"};
     }
     if (animation.frames > 0 && output.path == "-") {
@@ -225,19 +211,17 @@ Status check_possible(const RenderArguments& a, const std::vector<Output>& outpu
   return Done{};
 }
 
-Status tell_summary(const RenderArguments& a, const Model& model, const GimbalView& view,
-                    double milliseconds) {
-  if (!a.summary.is_wanted()) return Done{};
-  const SummaryFacts facts{view, tight_box(model), milliseconds};
+Status tell_summary(const RenderArguments& a, const SummaryFacts& facts) {
   if (!a.summary.parts.empty() && !a.loading.quiet) {
     if (const std::string lines = summary_lines(facts, a.summary); !lines.empty()) say_lines(lines);
   }
   return a.summary.file ? write_output(*a.summary.file, summary_json(facts, a.summary)) : Done{};
 }
 
-/// One picture, from what was read to the files that show it.
+/// One picture, from what was read to the files that show it. What a summary says of it goes to
+/// `facts`.
 Status render(RenderArguments& a, const std::vector<Output>& outputs, const Model& model,
-              const Stopwatch& watch) {
+              const Stopwatch& watch, SummaryFacts& facts) {
   RunTimes times{.read = watch.milliseconds()};
   Result<Renderer> renderer = Renderer::make(model, a.renderer);
   if (!renderer) return renderer.error();
@@ -255,7 +239,9 @@ Status render(RenderArguments& a, const std::vector<Output>& outputs, const Mode
   if (a.wants_statistics) {
     say_lines(statistics(model, *renderer, a.renderer.backend == Backend::kAuto, times));
   }
-  return tell_summary(a, model, view, times.total);
+  if (a.summary.is_wanted())
+    facts = {view, {.dimensions = model.drawing ? 2 : 3, .box = tight_box(model)}, times.total};
+  return Done{};
 }
 
 /// What a run has made so far.
@@ -271,38 +257,48 @@ struct Made {
   }
 };
 
-/// Files of the solid; what is read has facets.
-Status write_solids(RenderArguments& a, const std::vector<Output>& outputs, Made& made) {
+/// Files of the shape; what is read has facets. Adds to what a summary says of pictures.
+Status write_shapes(RenderArguments& a, const std::vector<Output>& outputs, bool has_pictures,
+                    Made& made, SummaryFacts& facts) {
+  const Stopwatch watch;
   Loading loading = a.loading;
-  loading.curves = curves_of_solid(loading.curves);
+  loading.curves = curves_of_shape(loading.curves);
+  loading.outlines = true;
+  loading.quiet = loading.quiet || has_pictures;  // warnings were said
   const Result<Read> read = load(a.file, loading);
   if (!read) return read.error();
-  std::vector<SolidOutput> files;
-  for (const Output& output : outputs) files.push_back({output.path, *output.solid});
-  if (Status done = write_solid_files(read->model, files,
-                                      {a.renderer.threads, a.loading.quiet, a.wants_statistics});
-      !done) {
-    return done;
-  }
+  std::vector<ShapeOutput> files;
+  for (const Output& output : outputs) files.push_back({output.path, output.format});
+  const Result<GeometryFacts> geometry = write_shape_files(
+      read->model, files,
+      {a.loading.curves, a.renderer.threads, a.loading.quiet, a.wants_statistics});
+  if (!geometry) return geometry.error();
   made.add(outputs, *read);
-  made.code = code_for(*read, loading);
+  if (made.code == kExitDone)
+    made.code = code_for(*read, loading, read->model.drawing ? "drawing" : "solid");
+  facts.geometry = *geometry;
+  facts.milliseconds += watch.milliseconds();
+  if (!has_pictures) facts.view = gimbal_view(a.view, read->model.view, geometry->box);
   return Done{};
 }
 
+/// Pictures first: what is no solid to print may well be seen.
 Status render_still(RenderArguments& a, const std::vector<Output>& outputs, Made& made) {
-  std::vector<Output> pictures, solids;
-  for (const Output& output : outputs) (output.solid ? solids : pictures).push_back(output);
-  if (!solids.empty()) {
-    if (Status done = write_solids(a, solids, made); !done) return done;
+  std::vector<Output> pictures, shapes;
+  for (const Output& output : outputs) (output.is_picture() ? pictures : shapes).push_back(output);
+  SummaryFacts facts;
+  if (!pictures.empty()) {
+    const Stopwatch watch;
+    const Result<Read> read = load(a.file, a.loading);
+    if (!read) return read.error();
+    if (Status done = render(a, pictures, read->model, watch, facts); !done) return done;
+    made.add(pictures, *read);
+    made.code = code_for(*read, a.loading, "picture");
   }
-  if (pictures.empty()) return Done{};
-  const Stopwatch watch;
-  const Result<Read> read = load(a.file, a.loading);
-  if (!read) return read.error();
-  if (Status done = render(a, pictures, read->model, watch); !done) return done;
-  made.add(pictures, *read);
-  if (made.code == kExitDone) made.code = code_for(*read, a.loading);
-  return Done{};
+  if (!shapes.empty()) {
+    if (Status done = write_shapes(a, shapes, !pictures.empty(), made, facts); !done) return done;
+  }
+  return a.summary.is_wanted() ? tell_summary(a, facts) : Done{};
 }
 
 Status render_frames(RenderArguments& a, const std::vector<Output>& outputs, Made& made) {
@@ -327,9 +323,13 @@ Status render_frames(RenderArguments& a, const std::vector<Output>& outputs, Mad
     for (Output& output : frame) {
       output.path = frame_path(output.path, animation.first() + int(i));
     }
-    if (Status done = render(a, frame, read->model, watch); !done) return done;
+    SummaryFacts facts;
+    if (Status done = render(a, frame, read->model, watch, facts); !done) return done;
+    if (a.summary.is_wanted()) {
+      if (Status done = tell_summary(a, facts); !done) return done;
+    }
     made.add(frame, *read);
-    if (made.code == kExitDone) made.code = code_for(*read, a.loading);
+    if (made.code == kExitDone) made.code = code_for(*read, a.loading, "picture");
   }
   return Done{};
 }

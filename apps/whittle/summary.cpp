@@ -87,10 +87,16 @@ std::string summary_json(const SummaryFacts& facts, const SummaryArguments& summ
                     {"hours", clock.hours}};
   }
   const bool tells_geometry = has(summary, "geometry"), tells_box = has(summary, "bounding-box");
-  if (is_told(facts.box) && (tells_geometry || tells_box)) {
-    json["geometry"]["dimensions"] = 3;
+  const GeometryFacts& geometry = facts.geometry;
+  if (is_told(geometry.box) && (tells_geometry || tells_box)) {
+    json["geometry"]["dimensions"] = geometry.dimensions;
+    if (tells_geometry) {
+      if (geometry.vertices) json["geometry"]["vertices"] = *geometry.vertices;
+      if (geometry.facets) json["geometry"]["facets"] = *geometry.facets;
+      if (geometry.contours) json["geometry"]["contours"] = *geometry.contours;
+    }
     if (tells_box) {
-      const Box box = rounded(facts.box);
+      const Box box = rounded(geometry.box);
       json["geometry"]["bounding_box"] = {
           {"min", to_json(box.lo)}, {"max", to_json(box.hi)}, {"size", to_json(box.size())}};
     }
@@ -115,11 +121,21 @@ std::string summary_lines(const SummaryFacts& facts, const SummaryArguments& sum
   if (has(summary, "time")) {
     lines.push_back("Total rendering time: " + Clock(facts.milliseconds).text());
   }
-  if (has(summary, "bounding-box") && is_told(facts.box)) {
+  const GeometryFacts& geometry = facts.geometry;
+  if (has(summary, "geometry") && (geometry.facets || geometry.contours)) {
+    lines.push_back(fmt::format("Top level object is a {}D object:", geometry.dimensions));
+    const auto count = [&](std::string_view name, const std::optional<size_t>& n) {
+      if (n) lines.push_back(fmt::format("   {:<10} {:>6}", name, *n));
+    };
+    count("Vertices:", geometry.vertices);
+    count("Facets:", geometry.facets);
+    count("Contours:", geometry.contours);
+  }
+  if (has(summary, "bounding-box") && is_told(geometry.box)) {
     lines.emplace_back("Bounding box:");
-    vector("Min:", facts.box.lo);
-    vector("Max:", facts.box.hi);
-    vector("Size:", facts.box.hi - facts.box.lo);
+    vector("Min:", geometry.box.lo);
+    vector("Max:", geometry.box.hi);
+    vector("Size:", geometry.box.size());
   }
   if (has(summary, "camera")) {
     lines.emplace_back("Camera:");

@@ -1,6 +1,7 @@
 // --summary and --summary-file: what was drawn, named as by openscad's newer versions.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,9 +20,17 @@ struct SummaryArguments {
 };
 void add_summary_options(CLI::App& app, SummaryArguments& summary);
 
+/// What is known of the shape.
+struct GeometryFacts {
+  int dimensions = 3;
+  Box box{};  ///< empty or infinite ones are not told
+  /// Of what was written: triangles and their corners, or the loops of a drawing.
+  std::optional<size_t> facets{}, vertices{}, contours{};
+};
+
 struct SummaryFacts {
-  GimbalView view;
-  Box box;  ///< of the solid; empty or infinite ones are not told
+  GimbalView view{};
+  GeometryFacts geometry{};
   double milliseconds = 0;
 };
 

@@ -79,9 +79,7 @@ Status check_solid(const Scene& scene) {
     return Error{ErrorKind::kInput, "the solid has no end, so no file holds all of it"};
   const auto is_curved = [](const HalfSpace& h) { return !h.is_plane(); };
   if (std::any_of(scene.half_spaces.begin(), scene.half_spaces.end(), is_curved))
-    return Error{ErrorKind::kInput,
-                 "true curves have no facets (--curves facets gives them some; more than 2048 "
-                 "count as a true curve)"};
+    return Error{ErrorKind::kInput, "there are true curves in it, which have no facets"};
   return Done{};
 }
 

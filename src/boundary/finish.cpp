@@ -123,7 +123,7 @@ SolidMesh finish(const FilledFaces& filled, const FaceOutlines& outlines,
       const std::array<int64_t, 3>& n = geometry.plane(last >> 1).n;
       const Vec3 normal = normalize(Vec3{double(n[0]), double(n[1]), double(n[2])});
       while (owner->sheet != last) ++owner;
-      mesh.faces.push_back({last & 1 ? -normal : normal, owner->id});
+      mesh.faces.push_back({last & 1 ? -normal : normal, owner->id, {}});
     }
     SolidMesh::Triangle numbered{{}, uint32_t(mesh.faces.size()) - 1};
     for (size_t i = 0; i < 3; ++i) numbered.corners[i] = filled.fans[triangle.corners[i]];

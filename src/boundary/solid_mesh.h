@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "model/model.h"
 
 namespace whittle {
 
@@ -21,6 +22,7 @@ struct SolidMesh {
   struct Face {
     Vec3 outward;        ///< unit normal
     uint32_t owner = 0;  ///< id of the first body in the file that has a part of it
+    Rgba color{};        ///< the outermost valid color() above that; invalid if none
   };
   std::vector<Vec3> corners;  ///< world coordinates
   std::vector<Triangle> triangles;

@@ -2,8 +2,12 @@
 
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/append_number.h"
+#include "boundary/write_xml.h"
 
 namespace whittle {
 namespace {
@@ -19,16 +23,30 @@ Corner to_floats(Vec3 p) {
 struct Facet {
   Corner normal;
   std::array<Corner, 3> corners;
-
-  bool has_shrunk() const {
-    return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0];
-  }
 };
 
 Facet facet_of(const SolidMesh& mesh, const SolidMesh::Triangle& triangle) {
   Facet facet{to_floats(mesh.faces[triangle.face].outward), {}};
   for (size_t i = 0; i < 3; ++i) facet.corners[i] = to_floats(mesh.corners[triangle.corners[i]]);
   return facet;
+}
+
+/// Calls `take` for the facets that are written, and says what is lost with the others.
+template <class Take>
+StlLoss for_facets(const SolidMesh& mesh, const Take& take) {
+  std::vector<bool> is_short;
+  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Facet facet = facet_of(mesh, mesh.triangles[t]);
+    bool has_shrunk = false;
+    for (size_t i = 0; i < 3; ++i) {
+      if (facet.corners[i] != facet.corners[(i + 1) % 3]) continue;
+      has_shrunk = true;
+      is_short.resize(3 * mesh.triangles.size());
+      is_short[3 * t + i] = true;
+    }
+    if (!has_shrunk) take(facet);
+  }
+  return is_short.empty() ? StlLoss{} : loss_of(mesh, is_short);
 }
 
 void append(std::string& out, uint32_t value) {
@@ -39,13 +57,6 @@ void append(std::string& out, const Corner& corner) {
   for (const float value : corner) append(out, std::bit_cast<uint32_t>(value));
 }
 
-template <class Number>
-void append_text(std::string& out, Number value) {
-  std::array<char, 40> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  out.append(text.data(), size_t(end - text.data()));
-}
-
 template <class Numbers>
 void append_row(std::string& out, const char* name, const Numbers& numbers) {
   out += name;
@@ -53,13 +64,13 @@ void append_row(std::string& out, const char* name, const Numbers& numbers) {
   for (const auto value : numbers) {
     if (!is_first) out += ' ';
     is_first = false;
-    append_text(out, value);
+    append_number(out, value);
   }
   out += '\n';
 }
 
 std::array<double, 3> coordinates(Vec3 p) {
-  return {p.x + 0.0, p.y + 0.0, p.z + 0.0};
+  return {p.x, p.y, p.z};
 }
 
 SolidFile binary_stl(const SolidMesh& mesh) {
@@ -72,17 +83,12 @@ SolidFile binary_stl(const SolidMesh& mesh) {
   out.resize(kHeader, ' ');
   append(out, 0);
   uint32_t count = 0;
-  for (const SolidMesh::Triangle& triangle : mesh.triangles) {
-    const Facet facet = facet_of(mesh, triangle);
-    if (facet.has_shrunk()) {
-      ++file.left_out;
-      continue;
-    }
+  file.lost = for_facets(mesh, [&](const Facet& facet) {
     ++count;
     append(out, facet.normal);
     for (const Corner& corner : facet.corners) append(out, corner);
     out.append(2, '\0');
-  }
+  });
   for (size_t i = 0; i < 4; ++i) out[kHeader + i] = char(count >> (8 * i) & 255);
   return file;
 }
@@ -91,17 +97,12 @@ SolidFile ascii_stl(const SolidMesh& mesh) {
   SolidFile file;
   std::string& out = file.bytes;
   out = "solid whittle\n";
-  for (const SolidMesh::Triangle& triangle : mesh.triangles) {
-    const Facet facet = facet_of(mesh, triangle);
-    if (facet.has_shrunk()) {
-      ++file.left_out;
-      continue;
-    }
+  file.lost = for_facets(mesh, [&](const Facet& facet) {
     append_row(out, "  facet normal", facet.normal);
     out += "    outer loop\n";
     for (const Corner& corner : facet.corners) append_row(out, "      vertex", corner);
     out += "    endloop\n  endfacet\n";
-  }
+  });
   out += "endsolid whittle\n";
   return file;
 }
@@ -128,7 +129,7 @@ SolidFile obj(const SolidMesh& mesh) {
 
 }  // namespace
 
-SolidFile write_solid(const SolidMesh& mesh, SolidFormat format) {
+Result<SolidFile> write_solid(const SolidMesh& mesh, SolidFormat format, const Workers& workers) {
   switch (format) {
     case SolidFormat::kStl:
       return binary_stl(mesh);
@@ -137,9 +138,15 @@ SolidFile write_solid(const SolidMesh& mesh, SolidFormat format) {
     case SolidFormat::kOff:
       return off(mesh);
     case SolidFormat::kObj:
+      return obj(mesh);
+    case SolidFormat::kAmf:
+      return SolidFile{write_amf(mesh)};
+    case SolidFormat::k3mf:
       break;
   }
-  return obj(mesh);
+  Result<std::string> archive = write_3mf(mesh, workers);
+  if (!archive) return archive.error();
+  return SolidFile{*std::move(archive)};
 }
 
 }  // namespace whittle

@@ -1,50 +1,45 @@
 #include "whittle/solid_output.h"
 
-#include <algorithm>
-#include <cctype>
-
 #include "lower/lower.h"
+#include "model/instances.h"
 
 namespace whittle {
 namespace {
 
-constexpr Choice<SolidFormat> kFormats[] = {{"stl", SolidFormat::kStl},
-                                            {"binstl", SolidFormat::kStl},
-                                            {"asciistl", SolidFormat::kAsciiStl},
-                                            {"off", SolidFormat::kOff},
-                                            {"obj", SolidFormat::kObj}};
+Error refused(const Model& model, const std::string& why) {
+  return {ErrorKind::kInput, model.file + ": error: " + why};
+}
 
 }  // namespace
 
-Choices<SolidFormat> solid_format_choices() {
-  return kFormats;
+bool has_true_curves(const Model& model) {
+  InstanceWalk walk(model);
+  while (const Instance* instance = walk.next())
+    if (!instance->empty && !is_flat(model.primitives[instance->primitive].shape)) return true;
+  return false;
 }
 
-std::optional<SolidFormat> solid_format_of(std::string_view path) {
-  const size_t dot = path.rfind('.');
-  if (dot == std::string_view::npos) return std::nullopt;
-  std::string ending(path.substr(dot + 1));
-  std::ranges::transform(ending, ending.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == "stl") return SolidFormat::kStl;
-  if (ending == "off") return SolidFormat::kOff;
-  if (ending == "obj") return SolidFormat::kObj;
-  return std::nullopt;
-}
-
-Result<SolidMesh> solid_of(const Model& model, int threads, BoundaryStats* stats) {
-  const auto refused = [&](const std::string& why) {
-    return Error{ErrorKind::kInput, model.file + ": error: " + why};
-  };
-  if (model.drawing) return refused("is flat; these files hold solids");
-  const Workers workers(threads);
+Result<SolidMesh> solid_of(const Model& model, const Workers& workers, BoundaryStats* stats) {
+  if (model.drawing)
+    return refused(model, "the model is flat, not a solid; .svg and .dxf hold what is flat");
   const Result<Scene> scene = lower(model, &workers);
   if (!scene) return scene.error();
   Result<SolidMesh> mesh = evaluate_solid(*scene, workers, stats);
-  if (!mesh)
-    return mesh.error().kind == ErrorKind::kInput ? refused(mesh.error().message) : mesh.error();
-  if (mesh->triangles.empty()) return refused("the solid is empty");
+  if (!mesh) {
+    return mesh.error().kind == ErrorKind::kInput ? refused(model, mesh.error().message)
+                                                  : mesh.error();
+  }
+  if (mesh->triangles.empty()) return refused(model, "the solid is empty");
+  const std::vector<Appearance> appearance = appearances(model);
+  for (SolidMesh::Face& face : mesh->faces) face.color = appearance[face.owner].color;
   return mesh;
+}
+
+Result<std::vector<std::vector<Vec2>>> drawing_of(const Model& model) {
+  if (!model.drawing)
+    return refused(model, "the model is not flat; .svg and .dxf hold only what is");
+  if (model.drawing->outlines.empty()) return refused(model, "the drawing is empty");
+  return model.drawing->outlines;
 }
 
 }  // namespace whittle

@@ -74,16 +74,19 @@ TEST_F(DropIn, WhatWouldBeAnotherPictureIsRefused) {
 }
 
 TEST_F(DropIn, OtherFormatsAreRefused) {
-  for (const std::string ending :
-       {"amf", "3mf", "csg", "dxf", "svg", "pdf", "echo", "ast", "AMF"}) {
+  for (const std::string ending : {"wrl", "nef3", "csg", "pdf", "echo", "ast", "PDF"}) {
     expect_refused({"part.csg", "-o", "x.png", "-o", "x." + ending},
                    "'x." + ending + "' asks for .");
   }
-  expect_refused(
-      {"part.csg", "-o", "x.amf"},
-      "'x.amf' asks for .amf, but whittle writes .png, .exr, .stl, .off and .obj only\n");
-  expect_refused({"part.csg", "-o", "x.png", "--export-format", "3mf"},
-                 "--export-format: '3mf' asks for .3mf, but whittle writes");
+  expect_refused({"part.csg", "-o", "x.wrl"},
+                 "'x.wrl' asks for .wrl, which whittle does not write; it writes .png, .exr, .stl, "
+                 ".off, .obj, "
+                 ".3mf, .amf, .svg or .dxf\n");
+  expect_refused({"part.csg", "-o", "x.png", "--export-format", "nef3"},
+                 "--export-format: 'nef3' asks for .nef3, which whittle does not write");
+  expect_refused({"part.csg", "-o", "x.png", "--export-format", "nonsense"},
+                 "--export-format: unknown format 'nonsense'; there are: png, exr, stl, off, obj, "
+                 "3mf, amf, svg, dxf, binstl, asciistl\n");
   expect_refused({"part.csg", "-s", "x.stl"}, "-s: the ending of -o FILE says what is written");
   expect_refused({"part.csg", "-x", "x.dxf"}, "-x: the ending of -o FILE says what is written");
 }

@@ -65,21 +65,22 @@ TEST_F(Usage, WithoutAnOutputItSaysThatThereIsNoWindow) {
   const Ended missing = run({"part.csg"});
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_EQ(missing.err,
-            "whittle: there is no window yet; give -o FILE.png or -o FILE.exr to make a picture\n");
+            "whittle: there is no window yet; give -o FILE, which may end in .png, .exr, .stl, "
+            ".off, .obj, .3mf, .amf, .svg or .dxf\n");
 }
 
 TEST_F(Usage, TheEndingOfTheOutputMustBeKnown) {
   const Ended unknown = run({"part.csg", "-o", "x.jpg"});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_EQ(unknown.err,
-            "whittle: 'x.jpg' does not end in .png, .exr, .stl, .off or .obj, so its format is not "
-            "known\n");
+            "whittle: 'x.jpg' does not end in .png, .exr, .stl, .off, .obj, .3mf, .amf, .svg or "
+            ".dxf, so its format is not known\n");
   const Ended standard = run({"part.csg", "-o", "-"});
   EXPECT_EQ(standard.exit_code, 2);
   EXPECT_EQ(
       standard.err,
-      "whittle: -o - (standard output) needs --export-format png, exr, stl, binstl, asciistl, "
-      "off, obj\n");
+      "whittle: -o - (standard output) needs --export-format png, exr, stl, off, obj, 3mf, amf, "
+      "svg, dxf, binstl, asciistl\n");
 }
 
 TEST_F(Usage, StandardOutputHoldsOnePicture) {
@@ -128,7 +129,8 @@ TEST_F(Usage, NamesInMessagesCommandNoTerminal) {
             shown + ":1:10: error: roofs are not supported (--strict)\n");
   EXPECT_EQ(run({odd, "-o", odd}).err,
             "whittle: '" + shown +
-                "' asks for .csg, but whittle writes .png, .exr, .stl, .off and .obj only\n");
+                "' asks for .csg, which whittle does not write; it writes .png, .exr, .stl, "
+                ".off, .obj, .3mf, .amf, .svg or .dxf\n");
   EXPECT_EQ(run({"part.csg", "-o", "b\x1b/x.png"}).err,
             "whittle: cannot write 'b?/x.png': No such file or directory\n");
   EXPECT_EQ(run({"part.csg", "-o", "x.png", "--style", "\n\x1b"}).err,
