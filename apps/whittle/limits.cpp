@@ -111,6 +111,12 @@ void limit_memory(uint64_t bytes) {
 #endif
 }
 
+uint64_t memory_limit() {
+  rlimit limit{};
+  ::getrlimit(RLIMIT_DATA, &limit);
+  return std::min<uint64_t>(limit.rlim_cur, physical_memory());
+}
+
 uint64_t physical_memory() {
   return uint64_t(::sysconf(_SC_PHYS_PAGES)) * uint64_t(::sysconf(_SC_PAGESIZE));
 }

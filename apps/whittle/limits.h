@@ -30,6 +30,9 @@ Result<Read> with_limit_option(Result<Read> read);
 /// Does nothing under the sanitizers, which take terabytes for themselves.
 void limit_memory(uint64_t bytes);
 
+/// What limit_memory() has set, or what the machine has if it did nothing.
+uint64_t memory_limit();
+
 /// What the machine has.
 uint64_t physical_memory();
 

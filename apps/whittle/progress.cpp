@@ -9,6 +9,8 @@
 #include <mutex>
 #include <thread>
 
+#include "console.h"
+
 namespace whittle {
 namespace {
 
@@ -44,7 +46,7 @@ struct ProgressLine::State {
 };
 
 ProgressLine::ProgressLine(bool wanted, const char* stage) {
-  if (!wanted || ::isatty(STDERR_FILENO) == 0) return;
+  if (!wanted || keeps_words() || ::isatty(STDERR_FILENO) == 0) return;
   state_ = std::make_unique<State>();
   state_->stage = stage;
   state_->thread = std::thread(&State::run, state_.get());
@@ -69,6 +71,16 @@ void ProgressLine::stage(const char* name) {
 Progress ProgressLine::share() {
   if (!state_) return {};
   return [state = state_.get()](double done) { state->share = done; };
+}
+
+void ProgressLine::without_line(const std::function<void()>& say) {
+  if (!state_) {
+    say();
+    return;
+  }
+  const std::lock_guard lock(state_->mutex);
+  show(kEraseLine);
+  say();
 }
 
 }  // namespace whittle

@@ -14,8 +14,10 @@
 #include "frame_reader.h"
 #include "host/dependencies.h"
 #include "host/input_kinds.h"
+#include "many_files.h"
 #include "openscad_options.h"
 #include "option_group.h"
+#include "output_template.h"
 #include "progress.h"
 #include "shape_files.h"
 #include "statistics.h"
@@ -31,6 +33,7 @@ namespace {
 constexpr CommandHelp kHelp = {
     "whittle", "Exact pictures of Constructive Solid Geometry, from OpenSCAD files.",
     "FILE -o OUT [options]      makes a picture, or a file to print or cut (the default)\n"
+    "       whittle FILE... -o '{name}.png'    draws many files, several at a time\n"
     "       whittle info FILE                  says what is in a file\n"
     "       whittle cells FILE -o OUT.png      draws the cells over the model\n"
     "       whittle compare A.exr B.exr        compares the facts of two pictures\n"
@@ -45,6 +48,7 @@ constexpr CommandHelp kHelp = {
     "  whittle part.csg -o part.png -o facts.exr --imgsize 1920,1080\n"
     "  whittle part.csg -o top.png --camera 0,0,0,0,0,0,200 --projection ortho\n"
     "  whittle part.csg -o part.stl\n"
+    "  whittle *.csg -o 'pictures/{name}.png'\n"
     "  openscad -o - --export-format csg part.scad | whittle - -o part.png\n\n"
     "  whittle part.scad -o lid.png -D 'part=\"lid\"'\n\n"
     "Exit codes: 0 done, 1 bad input, or something in it is not shown (--lenient: 0),\n"
@@ -62,7 +66,8 @@ struct Output {
 };
 
 struct RenderArguments {
-  std::string file;
+  std::vector<std::string> files;
+  std::string file;  ///< of them, the one that is drawn
   std::vector<std::string> outputs;
   std::optional<ExportFormat> export_format;
   Loading loading;
@@ -80,11 +85,12 @@ struct RenderArguments {
 
 void add_options(CommandLine& line, RenderArguments& a) {
   CLI::App& app = line.app();
-  line.add_required("FILE", a.file);
+  line.add_required("FILE", a.files);
   OptionGroup output(app, "Output"), look(app, "Look"), machine(app, "Machine");
   output.add_each("-o", "OUT",
                   "a picture (.png, .exr), the solid (.stl, .off, .obj, .3mf, .amf)\n"
-                  "or a drawing (.svg, .dxf), each -o one; '-': standard output",
+                  "or a drawing (.svg, .dxf), each -o one; '-': standard output;\n"
+                  "{name} in it is FILE's name",
                   [&](const std::string& path) { a.outputs.push_back(path); });
   output.add_text(
       "--export-format", "NAME", names_of(export_format_choices()) + ",\nwhatever OUT ends in",
@@ -178,6 +184,13 @@ Status draw(const RenderArguments& a, const std::vector<Output>& outputs, const 
   return Done{};
 }
 
+/// Where an output of a frame goes. Precondition: check_templates() found no mistake.
+std::string frame_output(const RenderArguments& a, const std::string& pattern, int frame) {
+  const std::string path =
+      *fill_template(pattern, {template_name(a.file), fmt::format("{:05}", frame)});
+  return has_word(pattern, "n") ? path : frame_path(path, frame);
+}
+
 /// Fails for what can not be done, before it has begun.
 Status check_possible(const RenderArguments& a, const std::vector<Output>& outputs) {
   if (Status possible = check_shadows(a.shading); !possible) return possible;
@@ -199,7 +212,7 @@ Status check_possible(const RenderArguments& a, const std::vector<Output>& outpu
     if (animation.frames > 0 && output.path == "-") {
       return Error{ErrorKind::kUsage, "--animate makes many files; -o - is one"};
     }
-    paths.push_back(animation.frames > 0 ? frame_path(output.path, animation.first())
+    paths.push_back(animation.frames > 0 ? frame_output(a, output.path, animation.first())
                                          : output.path);
   }
   if (a.openscad.dependency_file) paths.push_back(*a.openscad.dependency_file);
@@ -321,7 +334,7 @@ Status render_frames(RenderArguments& a, const std::vector<Output>& outputs, Mad
     if (Status fit = say_warnings(*read, a.loading); !fit) return fit;
     std::vector<Output> frame = outputs;
     for (Output& output : frame) {
-      output.path = frame_path(output.path, animation.first() + int(i));
+      output.path = frame_output(a, output.path, animation.first() + int(i));
     }
     SummaryFacts facts;
     if (Status done = render(a, frame, read->model, watch, facts); !done) return done;
@@ -334,22 +347,65 @@ Status render_frames(RenderArguments& a, const std::vector<Output>& outputs, Mad
   return Done{};
 }
 
-Result<int> run(RenderArguments& a) {
-  const Result<std::vector<Output>> outputs = choose_outputs(a);
-  if (!outputs) return outputs.error();
-  if (Status possible = settle_device(a.renderer); !possible) return possible.error();
-  if (Status possible = check_possible(a, *outputs); !possible) return possible.error();
-  suit_style(a.shading.style, a.loading);
-  apply(a.subdivision, a.renderer);
-  a.shading.background = !a.no_background;
-  Made made;
+/// All outputs, as templates.
+std::vector<OutputTemplate> templates_of(const RenderArguments& a,
+                                         const std::vector<Output>& outputs) {
+  std::vector<OutputTemplate> templates;
+  for (const Output& output : outputs) templates.push_back({"-o", output.path, true});
+  if (a.openscad.dependency_file) templates.push_back({"-d", *a.openscad.dependency_file, false});
+  if (a.summary.file) templates.push_back({"--summary-file", *a.summary.file, false});
+  return templates;
+}
+
+/// One file. The outputs are templates.
+Result<int> run_one(RenderArguments& a, std::vector<Output> outputs) {
   const bool moves = a.openscad.animation.frames > 0;
-  Status done = moves ? render_frames(a, *outputs, made) : render_still(a, *outputs, made);
+  const auto fill = [&](std::string& path) {
+    path = *fill_template(path, {template_name(a.file)});
+  };
+  for (Output& output : outputs)
+    if (!moves) fill(output.path);
+  if (a.openscad.dependency_file) fill(*a.openscad.dependency_file);
+  if (a.summary.file) fill(*a.summary.file);
+  if (Status possible = check_possible(a, outputs); !possible) return possible.error();
+  Made made;
+  Status done = moves ? render_frames(a, outputs, made) : render_still(a, outputs, made);
   if (done && a.openscad.dependency_file) {
     done = write_output(*a.openscad.dependency_file, write_dependencies(made.targets, made.files));
   }
   if (!done) return done.error();
   return made.code;
+}
+
+int run_many(const RenderArguments& all, const std::vector<Output>& outputs) {
+  // A device serves one tracer at a time, and to open it for each file takes longer than a file.
+  const bool on_device = all.renderer.backend == Backend::kVulkanRaster;
+  const ManyFiles many{all.files, all.renderer.threads, on_device, all.loading.quiet};
+  const auto draw = [&](size_t file, int threads) {
+    RenderArguments a = all;
+    a.file = all.files[file];
+    if (a.renderer.backend == Backend::kAuto) a.renderer.backend = Backend::kCpu;
+    a.renderer.threads = threads;
+    a.loading.threads = &a.renderer.threads;
+    const Result<int> code = run_one(a, outputs);
+    return code ? *code : report(code.error());
+  };
+  return draw_all(many, draw);
+}
+
+Result<int> run(RenderArguments& a) {
+  const Result<std::vector<Output>> outputs = choose_outputs(a);
+  if (!outputs) return outputs.error();
+  if (Status possible = settle_device(a.renderer); !possible) return possible.error();
+  const bool moves = a.openscad.animation.frames > 0;
+  if (Status possible = check_templates(a.files, templates_of(a, *outputs), moves); !possible)
+    return possible.error();
+  suit_style(a.shading.style, a.loading);
+  apply(a.subdivision, a.renderer);
+  a.shading.background = !a.no_background;
+  if (a.files.size() > 1) return run_many(a, *outputs);
+  a.file = a.files[0];
+  return run_one(a, *outputs);
 }
 
 }  // namespace
