@@ -91,6 +91,25 @@ TEST(Lanes, SolveLongConjunctionsAndDisjunctionsAsLeafSolverDoes) {
   }
 }
 
+TEST(Lanes, RunProgramsAsLeafSolverDoes) {
+  // Up to all that is kept of literals and steps, and beyond.
+  size_t hit = 0;
+  std::array<size_t, 3> programs{};
+  for (uint64_t seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const Model model = model_of(random_tree(
+        seed, {.primitives = 40, .coincident = seed % 4 >= 2, .nearly = seed % 4 == 3}));
+    const Scene scene = *lower(model);
+    SubdivideSettings settings;
+    settings.leaf_size = std::array{9u, 20u, 48u}[seed % 3];
+    const SubdivideStats stats = statistics_of(subdivide(scene, settings));
+    programs[seed % 3] += stats.cells[size_t(CellKind::kProgram)];
+    hit += expect_same(scene, settings, cameras_for(model, 52, 39));
+  }
+  for (const size_t count : programs) EXPECT_GT(count, 10u);
+  EXPECT_GT(hit, 10000u);
+}
+
 /// Parallel rays in one row of pixels, from `from` on along `row`.
 Camera row_of_rays(Vec3 from, Vec3 row, Vec3 direction, double length) {
   Camera camera;

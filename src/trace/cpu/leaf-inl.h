@@ -17,7 +17,7 @@ namespace whittle {
 namespace HWY_NAMESPACE {
 namespace {
 
-static_assert(kKeptLiterals >= kTableLiterals);
+static_assert(kKeptLiterals >= kTableLiterals && kKeptLiterals <= 64);
 
 /// Packets that are solved together; more only fill the nearest cache.
 constexpr size_t kGroup = kGroupRays / kMaxLanes;
@@ -58,15 +58,26 @@ class LeavesInLanes {
   template <AlongKind kKind, bool kKeeps>
   uint32_t look_at(const LeafLiteral& literal, size_t number, uint32_t settles, uint32_t settling);
   void find_roots(size_t literals);
-  /// Conjunctions and disjunctions without a table, of which all is kept. By itself, or what is
-  /// done far more often would be a twentieth slower.
-  HWY_NOINLINE void solve_group(CellKind kind, const Leaf& leaf) {
+  /// Which states are in the solid: says a table, or there is but one that is, or that is not, or
+  /// says a program.
+  enum class Says : uint8_t { kTable, kLoneState, kProgram };
+  template <Says kSays>
+  HWY_INLINE void solve_all_in_lanes(CellKind kind, const Leaf& leaf) {
     find_roots(leaf.literal_count);
     for (size_t w = 0; w < waiting_count_; ++w)
-      open_[waiting_[w]] = solve_in_lanes<false>(kind, leaf, waiting_[w]);
+      open_[waiting_[w]] = solve_in_lanes<kSays>(kind, leaf, waiting_[w]);
   }
-  template <bool kHasTable>
+  /// Leaves without a table, of which all is kept. By itself, or what is done far more often would
+  /// be a twentieth slower.
+  HWY_NOINLINE void solve_group(CellKind kind, const Leaf& leaf) {
+    solve_all_in_lanes<Says::kLoneState>(kind, leaf);
+  }
+  HWY_NOINLINE void solve_program(const Leaf& leaf) {
+    solve_all_in_lanes<Says::kProgram>(CellKind::kProgram, leaf);
+  }
+  template <Says kSays>
   uint32_t solve_in_lanes(CellKind kind, const Leaf& leaf, size_t visitor);
+  static uint32_t run_program(std::span<const Step> steps, Word state);
   uint32_t find_owners(const Leaf& leaf, size_t packet, uint32_t lanes, Word state,
                        uint32_t literal);
   void solve_kept_lanes(CellKind kind, const Leaf& leaf, size_t visitor);
@@ -193,13 +204,12 @@ inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
   }
   if (waiting_count_ == 0) return;
   if (scene_.solves_in_lanes && !is_long) {
-    if (literals.size() <= kTableLiterals) {
-      find_roots(literals.size());
-      for (size_t w = 0; w < waiting_count_; ++w)
-        open_[waiting_[w]] = solve_in_lanes<true>(kind, leaf, waiting_[w]);
-    } else if (settles) {
+    if (literals.size() <= kTableLiterals)
+      solve_all_in_lanes<Says::kTable>(kind, leaf);
+    else if (settles)
       solve_group(kind, leaf);
-    }
+    else if (leaf.step_count <= kMostSteps)
+      solve_program(leaf);
   }
   for (size_t w = 0; w < waiting_count_; ++w) {
     if (open_[waiting_[w]] == 0) continue;
@@ -281,10 +291,34 @@ inline void LeavesInLanes::find_roots(size_t literals) {
   }
 }
 
+/// The lanes for which a program says yes, in the states given. All lanes take each step together:
+/// where they go from there stands behind it.
+HWY_INLINE uint32_t LeavesInLanes::run_program(std::span<const Step> steps, Word state) {
+  constexpr uint8_t kAll = 0xff;
+  // By step, the lanes that come to it; then those that come to the answers.
+  uint8_t lanes_at[kMostSteps + 2] = {};
+  const auto at = [&](uint32_t step) -> uint8_t& {
+    return lanes_at[step < kAnswerFalse ? step : kMostSteps + (step - kAnswerFalse)];
+  };
+  lanes_at[0] = kAll;
+  for (size_t i = 0; i < steps.size(); ++i) {
+    const uint8_t here = lanes_at[i];
+    if (here == 0) continue;
+    const Step& step = steps[i];
+    const Word bit = hn::Set(Words(), uint64_t(1) << (step.literal >> 1));
+    const uint32_t inside =
+        bits(hn::RebindMask(D(), hn::Ne(hn::And(state, bit), hn::Zero(Words()))));
+    const auto holds = uint8_t(step.literal & 1 ? ~inside : inside);
+    at(step.on_true) |= uint8_t(here & holds);
+    at(step.on_false) |= uint8_t(here & ~holds);
+  }
+  return at(kAnswerTrue);
+}
+
 /// Decides what is plain. Returns the lanes that are not: where crossings coincide, where
 /// the leaf disagrees with what is known, where a surface has several owners, and where numbers
 /// overflow.
-template <bool kHasTable>
+template <LeavesInLanes::Says kSays>
 inline uint32_t LeavesInLanes::solve_in_lanes(CellKind kind, const Leaf& leaf, size_t visitor) {
   const std::span<const LeafLiteral> literals = leaf.literals();
   const Real never = set(kInfinity);
@@ -299,11 +333,12 @@ inline uint32_t LeavesInLanes::solve_in_lanes(CellKind kind, const Leaf& leaf, s
   // In one state only all literals of a conjunction hold, or none of a disjunction.
   const uint32_t otherwise = kind == CellKind::kDisjunction ? ~0u : 0;
   uint64_t lone_state = 0;
-  for (size_t i = 0; !kHasTable && i < literals.size(); ++i)
+  for (size_t i = 0; kSays == Says::kLoneState && i < literals.size(); ++i)
     lone_state |= uint64_t((literals[i].literal ^ otherwise ^ 1) & 1) << i;
   const Word lone = hn::Set(Words(), lone_state);
   const auto solid_in = [&](Word s) {
-    if (!kHasTable) return bits(hn::RebindMask(D(), hn::Eq(s, lone))) ^ otherwise;
+    if (kSays == Says::kProgram) return run_program(leaf.steps(), s);
+    if (kSays == Says::kLoneState) return bits(hn::RebindMask(D(), hn::Eq(s, lone))) ^ otherwise;
     return bits(hn::RebindMask(D(), hn::Ne(hn::And(hn::Shr(table, s), one), hn::Zero(Words()))));
   };
   const uint32_t solid = solid_in(state);
