@@ -4,6 +4,7 @@
 #include <array>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "base/printable.h"
@@ -11,6 +12,7 @@
 #include "commands.h"
 #include "console.h"
 #include "lower/lower.h"
+#include "mass.h"
 #include "model/instances.h"
 #include "option_group.h"
 #include "subdivide/solid_bounds.h"
@@ -22,7 +24,8 @@ constexpr CommandHelp kHelp = {
     "whittle info", "Says what is in a model: counts, bounds, warnings.", "FILE [options]",
     "Examples:\n"
     "  whittle info part.csg\n"
-    "  whittle info part.csg --json | jq .half_spaces\n\n"
+    "  whittle info part.csg --json | jq .half_spaces\n"
+    "  whittle info part.csg --density 1.24\n\n"
     "Exit codes: 0 done, 1 bad input, 2 bad usage, 3 refused by the machine."};
 
 constexpr std::array<std::string_view, 7> kNodeNames = {
@@ -38,6 +41,7 @@ struct Info {
   Bounds bounds;
   SolidBounds solid;
   double tolerance = 0;
+  std::optional<Measures> measures;
 };
 
 Result<Info> gather(const Model& model) {
@@ -74,7 +78,7 @@ nlohmann::ordered_json to_json(const Box& box) {
   return {{"lo", to_json(box.lo)}, {"hi", to_json(box.hi)}};
 }
 
-std::string describe_json(const Read& read, const Info& info) {
+std::string describe_json(const Read& read, const Info& info, const MassArguments& mass) {
   nlohmann::ordered_json json;
   json["file"] = read.model.file;
   json["statements"] = read.model.statement_count;
@@ -100,6 +104,7 @@ std::string describe_json(const Read& read, const Info& info) {
   json["bounds"] = to_json(info.bounds.box);
   json["solid_box"] = to_json(info.solid.box);
   json["tolerance"] = info.tolerance;
+  if (info.measures) json["mass"] = mass_json(*info.measures, mass);
   json["supported"] = !read.unsupported;
   json["warnings"] = read.warnings;
   // A file name may be any bytes; JSON may not.
@@ -160,7 +165,7 @@ std::string describe_solid(const Info& info) {
   return describe(info.solid.box) + (info.solid.exact ? "" : ", or less");
 }
 
-std::string describe_text(const Read& read, const Info& info) {
+std::string describe_text(const Read& read, const Info& info, const MassArguments& mass) {
   std::string text;
   const auto add = [&](const char* name, const std::string& value) {
     fmt::format_to(std::back_inserter(text), "{:<12} {}\n", name, printable(value));
@@ -181,6 +186,7 @@ std::string describe_text(const Read& read, const Info& info) {
   add("bounds", describe_bounds(info.bounds));
   add("solid's box", describe_solid(info));
   add("tolerance", fmt::format("{:.3g}", info.tolerance));
+  if (info.measures) text += describe_mass(*info.measures, mass);
   add("warnings", fmt::format("{}{}", read.warnings.size(),
                               read.unsupported ? ", and not everything is supported" : ""));
   return text;
@@ -196,15 +202,22 @@ int info_command(Arguments arguments) {
   line.add_required("FILE", file);
   OptionGroup(line.app(), "Output")
       .add_flag("--json", wants_json, "one JSON object, warnings in it");
+  MassArguments mass;
+  add_mass_options(line.app(), mass, loading);
   add_loading_options(line, loading);
   if (const std::optional<int> code = line.parse(arguments)) return *code;
 
   if (wants_json) loading.quiet = true;
   const Result<Read> read = load(file, loading);
   if (!read) return report(read.error());
-  const Result<Info> info = gather(read->model);
+  Result<Info> info = gather(read->model);
   if (!info) return report(info.error());
-  return print(wants_json ? describe_json(*read, *info) : describe_text(*read, *info));
+  if (mass.is_wanted) {
+    Result<Measures> measures = measure_solid(read->model, mass, loading.quiet);
+    if (!measures) return report(measures.error());
+    info->measures = *std::move(measures);
+  }
+  return print(wants_json ? describe_json(*read, *info, mass) : describe_text(*read, *info, mass));
 }
 
 }  // namespace whittle
