@@ -44,6 +44,17 @@ void DrawingTracer::cast(std::span<const Ray> rays, std::span<Hit> hits) {
       rays.size(), [&](size_t i) { return rays[i]; }, hits);
 }
 
+void DrawingTracer::cast_through(std::span<const Ray> rays, RayCrossings& found) {
+  std::vector<Hit> hits(rays.size());
+  cast(rays, hits);
+  found = {};
+  for (const Hit& hit : hits) {
+    if (hit.hit())
+      found.all.push_back({double(hit.distance), hit.id, true, {0, 0, double(hit.normal.z)}});
+    found.ends.push_back(found.all.size());
+  }
+}
+
 template <class RayOf>
 void DrawingTracer::look(size_t count, const RayOf& ray_of, std::span<Hit> hits) {
   meetings_.assign(count, Meeting{});

@@ -24,6 +24,8 @@ class DrawingTracer final : public Tracer {
   void probe(const Camera& camera, std::span<const PixelPosition> positions,
              std::span<Hit> hits) override;
   void cast(std::span<const Ray> rays, std::span<Hit> hits) override;
+  /// Passing the plane where the drawing is counts as entering; nothing is left.
+  void cast_through(std::span<const Ray> rays, RayCrossings& found) override;
   Status status() const override { return slab_.status(); }
 
  private:

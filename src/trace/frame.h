@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "base/uninitialized.h"
@@ -23,6 +24,25 @@ struct Hit {
   uint32_t id = 0;  ///< owner primitive (docs/conventions.md, tie rules); 0: no hit
   Vec3f normal;     ///< unit outward normal of the solid, world space; zero: no hit
   bool hit() const { return id != 0; }
+};
+
+/// A point with t > t_min at which a ray enters or leaves the solid.
+struct SurfaceCrossing {
+  double distance = 0;  ///< t, model units
+  uint32_t id = 0;      ///< as in Hit
+  bool enters = false;  ///< beyond it the ray is in the solid
+  Vec3 normal;          ///< as in Hit
+};
+
+/// All crossings of some rays, each ray's from its start on.
+struct RayCrossings {
+  std::vector<SurfaceCrossing> all;  ///< ray by ray
+  std::vector<size_t> ends;          ///< by ray: where in `all` those of the next begin
+
+  std::span<const SurfaceCrossing> of(size_t ray) const {
+    const size_t first = ray == 0 ? 0 : ends[ray - 1];
+    return std::span(all).subspan(first, ends[ray] - first);
+  }
 };
 
 /// One hit a pixel, rows from the top, each from the left.

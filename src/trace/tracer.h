@@ -47,6 +47,11 @@ class Tracer {
   /// Facts for any rays; hits.size() == rays.size(). The fastest are those whose neighbours in the
   /// row go nearly the same way.
   virtual void cast(std::span<const Ray> rays, std::span<Hit> hits) = 0;
+  /// All points at which rays enter or leave the solid, not only the first. Entering and leaving
+  /// take turns; a ray that starts in the solid first leaves it. Points at which it would leave and
+  /// enter again within the rounding of the ray are none. Not to be asked of tracers that are made
+  /// for pictures alone.
+  virtual void cast_through(std::span<const Ray>, RayCrossings&) { WHITTLE_CHECK(false); }
   /// What the machine refused, if it did; then all facts since are of no use.
   virtual Status status() const { return Done{}; }
 };

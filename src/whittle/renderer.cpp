@@ -322,6 +322,11 @@ Status Renderer::cast(std::span<const Ray> rays, std::span<Hit> hits) {
   return tracer().status();
 }
 
+Status Renderer::cast_through(std::span<const Ray> rays, RayCrossings& found) {
+  state_->seen().cast_through(rays, found);
+  return tracer().status();
+}
+
 Tracer& Renderer::tracer() const {
   WHITTLE_CHECK(state_->tracer);
   return *state_->tracer;

@@ -100,6 +100,8 @@ class Renderer {
                         int antialias, const std::stop_token& stop = {});
   /// Facts for any rays; hits.size() == rays.size().
   Status cast(std::span<const Ray> rays, std::span<Hit> hits);
+  /// All crossings of any rays (Tracer::cast_through).
+  Status cast_through(std::span<const Ray> rays, RayCrossings& found);
 
   Tracer& tracer() const;
   /// The tracer, if it is of that kind; else null.

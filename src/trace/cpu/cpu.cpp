@@ -101,6 +101,29 @@ class CpuTracerImpl final : public CpuTracer {
     });
   }
 
+  void cast_through(std::span<const Ray> rays, RayCrossings& found) override {
+    found = {};
+    if (lanes_.tree.region.is_empty()) {
+      found.ends.assign(rays.size(), 0);
+      return;
+    }
+    std::vector<RayCrossings> of_part(rays.size() / kProbeChunk + 1);
+    workers_.for_parts(of_part.size(), 1, [&](size_t first, size_t last, size_t worker) {
+      LaneScratch& scratch = scratches_.of(worker, lanes_);
+      for (size_t part = first; part < last; ++part) {
+        const size_t end = std::min((part + 1) * kProbeChunk, rays.size());
+        for (size_t i = part * kProbeChunk; i < end; i += kProbeRays) {
+          cross_lanes(lanes_, rays.subspan(i, std::min(kProbeRays, end - i)), of_part[part],
+                      scratch);
+        }
+      }
+    });
+    for (const RayCrossings& part : of_part) {
+      for (const size_t end : part.ends) found.ends.push_back(found.all.size() + end);
+      found.all.insert(found.all.end(), part.all.begin(), part.all.end());
+    }
+  }
+
   TraceStats stats() const override {
     TraceStats sum;
     scratches_.for_each([&](const LaneScratch& scratch) {

@@ -12,6 +12,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "trace/cpu/crossings.h"
 #include "trace/cpu/leaf-inl.h"
 #include "trace/cpu/tile-inl.h"
 
@@ -42,11 +43,11 @@ class Walk {
  public:
   /// What is recorded counts the packets from `first_packet` on.
   Walk(const LaneScene& scene, Tile& tile, LaneScratch& scratch, size_t first_packet,
-       TileRecord* record)
+       TileRecord* record, std::vector<LaneChange>* through = nullptr)
       : scene_(scene),
         tile_(tile),
         scratch_(scratch),
-        leaves_(scene, tile, scratch),
+        leaves_(scene, tile, scratch, through),
         first_packet_(first_packet),
         record_(record),
         exact_(kExact * tile.width) {}
@@ -440,6 +441,27 @@ void trace_rays(const LaneScene& scene, std::span<const Ray> all, Hit* hits, Lan
   }
 }
 
+void cross_rays(const LaneScene& scene, std::span<const Ray> all, RayCrossings& found,
+                LaneScratch& scratch) {
+  scratch.stats.rays += all.size();
+  for (size_t first = 0; first < all.size(); first += Tile::most_rays()) {
+    const auto rays = all.subspan(first, std::min(Tile::most_rays(), all.size() - first));
+    Tile tile;
+    tile.make_rays(scene, rays);
+    scratch.changes.clear();
+    Walk(scene, tile, scratch, 0, nullptr, &scratch.changes).all();
+    // Each ray's changes are in their order already.
+    std::ranges::stable_sort(scratch.changes, {}, &LaneChange::ray);
+    const LaneChange* next = scratch.changes.data();
+    const LaneChange* const end = next + scratch.changes.size();
+    for (uint32_t i = 0; i < rays.size(); ++i) {
+      const LaneChange* const begin = next;
+      while (next != end && next->ray == i) ++next;
+      add_crossings(scene, tile.ray(i), tile.shift(i), {begin, next}, found);
+    }
+  }
+}
+
 void retrace_positions(const LaneScene& scene, const Camera& camera,
                        std::span<const PixelPosition> all_positions, const uint32_t* all_places,
                        Hit* hits, LaneScratch& scratch, const TileRecord& record) {
@@ -480,6 +502,7 @@ namespace whittle {
 WHITTLE_EXPORT(trace_positions);
 WHITTLE_EXPORT(trace_rays);
 WHITTLE_EXPORT(retrace_positions);
+WHITTLE_EXPORT(cross_rays);
 
 void trace_lanes(const LaneScene& scene, const Camera& camera,
                  std::span<const PixelPosition> positions, const uint32_t* places, Hit* hits,
@@ -490,6 +513,11 @@ void trace_lanes(const LaneScene& scene, const Camera& camera,
 void trace_lanes(const LaneScene& scene, std::span<const Ray> rays, Hit* hits,
                  LaneScratch& scratch) {
   WHITTLE_DISPATCH(trace_rays)(scene, rays, hits, scratch);
+}
+
+void cross_lanes(const LaneScene& scene, std::span<const Ray> rays, RayCrossings& found,
+                 LaneScratch& scratch) {
+  WHITTLE_DISPATCH(cross_rays)(scene, rays, found, scratch);
 }
 
 void retrace_lanes(const LaneScene& scene, const Camera& camera,

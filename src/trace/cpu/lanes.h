@@ -60,6 +60,14 @@ struct alignas(64) GroupAlong {
   double a[kGroupRays], h[kGroupRays], k[kGroupRays], about[kGroupRays];
 };
 
+/// Where the solid changes along a ray of a tile that goes on.
+struct LaneChange {
+  /// A change between two cells that disagree: id and surface are not known.
+  static constexpr uint32_t kNoHalfSpace = UINT32_MAX;
+  uint32_t ray;  ///< in the tile
+  Change change;
+};
+
 /// What one thread needs besides the scene and the cells.
 struct LaneScratch {
   explicit LaneScratch(const LaneScene& scene) : refiner(scene.tree), solver(scene.scene) {}
@@ -71,6 +79,7 @@ struct LaneScratch {
   /// By literal, one for each packet of a group.
   std::array<LaneSigns, kKeptLiterals * kGroupRays / kMaxLanes> signs;
   std::vector<LaneSigns> long_signs;  ///< by literal, of one packet
+  std::vector<LaneChange> changes;    ///< of a tile of rays that go on
   TraceStats stats;
 };
 
@@ -93,6 +102,10 @@ void trace_lanes(const LaneScene& scene, const Camera& camera,
 
 /// The hits of any rays, which had better be close to one another; hits.size() == rays.size().
 void trace_lanes(const LaneScene& scene, std::span<const Ray> rays, Hit* hits,
+                 LaneScratch& scratch);
+
+/// Adds all crossings of any rays, which had better be close to one another.
+void cross_lanes(const LaneScene& scene, std::span<const Ray> rays, RayCrossings& found,
                  LaneScratch& scratch);
 
 /// The same hits from what trace_lanes() recorded with the same instruction set: no walk, only the

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <type_traits>
+#include <vector>
 
 #include "trace/cpu/half_spaces-inl.h"
 
@@ -43,8 +44,14 @@ struct Visitors {
 /// waits for another's arithmetic.
 class LeavesInLanes {
  public:
-  LeavesInLanes(const LaneScene& scene, Tile& tile, LaneScratch& scratch)
-      : scene_(scene), tile_(tile), scratch_(scratch), half_spaces_(scene, tile) {}
+  /// With `through` rays meet nothing, but go on; what they cross is added to it.
+  LeavesInLanes(const LaneScene& scene, Tile& tile, LaneScratch& scratch,
+                std::vector<LaneChange>* through = nullptr)
+      : scene_(scene),
+        tile_(tile),
+        scratch_(scratch),
+        half_spaces_(scene, tile),
+        through_(through) {}
 
   Visitors visitors;
 
@@ -53,6 +60,7 @@ class LeavesInLanes {
 
  private:
   void forget_at_eye();
+  void close(size_t visitor, uint32_t lanes, bool solid);
   void solve(CellKind kind, const Leaf& leaf);
   void settle_long(const Leaf& leaf, uint32_t settles, uint32_t settling);
   template <AlongKind kKind, bool kKeeps>
@@ -110,6 +118,7 @@ class LeavesInLanes {
   Tile& tile_;
   LaneScratch& scratch_;
   const HalfSpacesInLanes half_spaces_;
+  std::vector<LaneChange>* const through_;  ///< or none
 
   /// Crossings of all visitors, those of each one after the other.
   struct Root {
@@ -137,8 +146,9 @@ inline void LeavesInLanes::pass(CellLink cell) {
         const uint32_t packet = visitors.packet[i], lanes = visitors.lanes[i];
         const uint32_t here = cell.kind() == CellKind::kFull ? lanes : 0;
         // A surface on a cell's side is a literal on both sides of it, so this cannot be a change.
-        scratch_.stats.disagreements +=
-            uint32_t(std::popcount((tile_.solid[packet] ^ here) & tile_.known[packet] & lanes));
+        const uint32_t other = (tile_.solid[packet] ^ here) & tile_.known[packet] & lanes;
+        scratch_.stats.disagreements += uint32_t(std::popcount(other));
+        if (HWY_UNLIKELY(through_ != nullptr && other != 0)) close(i, other, here != 0);
         becomes(packet, lanes, here);
       }
       return;
@@ -147,6 +157,18 @@ inline void LeavesInLanes::pass(CellLink cell) {
       solve(cell.kind(), leaf);
       if (HWY_UNLIKELY(tile_.from_within)) forget_at_eye();
     }
+  }
+}
+
+/// Rays that came in with the other value than all of the cell has: between it and its neighbour
+/// there is a crossing of which neither knows.
+HWY_NOINLINE inline void LeavesInLanes::close(size_t visitor, uint32_t lanes, bool solid) {
+  const size_t packet = visitors.packet[visitor];
+  for (uint32_t left = lanes; left != 0; left &= left - 1) {
+    const auto lane = uint32_t(std::countr_zero(left));
+    const double t0 = visitors.t0[visitor * Tile::lanes() + lane];
+    through_->push_back(
+        {uint32_t(packet * Tile::lanes()) + lane, {t0, 0, LaneChange::kNoHalfSpace, false, solid}});
   }
 }
 
@@ -203,7 +225,7 @@ inline void LeavesInLanes::solve(CellKind kind, const Leaf& leaf) {
     waiting_count_ += open_[i] != 0;
   }
   if (waiting_count_ == 0) return;
-  if (scene_.solves_in_lanes && !is_long) {
+  if (scene_.solves_in_lanes && !is_long && through_ == nullptr) {
     if (literals.size() <= kTableLiterals)
       solve_all_in_lanes<Says::kTable>(kind, leaf);
     else if (settles)
@@ -479,7 +501,8 @@ inline void LeavesInLanes::solve_lane(CellKind kind, const Leaf& leaf, size_t vi
   const LocalRay ray = tile_.ray(packet, lane);
   Change change;
   bool changes = true;
-  if (HWY_UNLIKELY(solver.differs(inside))) {
+  const bool differs = solver.differs(inside);
+  if (HWY_UNLIKELY(differs)) {
     uint32_t nearest = 0;
     double least = kInfinity;
     for (uint32_t i = 0; i < leaf.literal_count; ++i) {
@@ -488,7 +511,11 @@ inline void LeavesInLanes::solve_lane(CellKind kind, const Leaf& leaf, size_t vi
     }
     change = solver.change_at_start(ray, t0, nearest);
   } else {
-    changes = solver.first_change(ray, inside, change);
+    changes = solver.next_change(ray, inside, change);
+  }
+  if (through_ != nullptr) {
+    for (; changes; changes = solver.next_change(ray, inside, change))
+      through_->push_back({uint32_t(packet * Tile::lanes()) + lane, change});
   }
   if (changes)
     tile_.lane_met(packet, lane, change.t,

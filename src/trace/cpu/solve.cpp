@@ -53,6 +53,7 @@ void LeafSolver::sort_crossings() {
 
 void LeafSolver::start() {
   const std::span<const LeafLiteral> literals = leaf_->literals();
+  next_ = 0;
   state_ = 0;
   count_ = 0;
   if (kind_ == CellKind::kTable) {
@@ -143,16 +144,17 @@ Change LeafSolver::change_at_start(const LocalRay& ray, double t0, uint32_t near
   return describe(ray, t0, {&here, 1}, solid_);
 }
 
-bool LeafSolver::first_change(const LocalRay& ray, Inside& inside, Change& change) {
-  for (size_t i = 0; i < crossings_.size();) {
-    const size_t first = i;
-    const double t = crossings_[i].t;
+bool LeafSolver::next_change(const LocalRay& ray, Inside& inside, Change& change) {
+  while (next_ < crossings_.size()) {
+    const size_t first = next_;
+    const double t = crossings_[first].t;
     // The first one in any case: where numbers overflow, t may be none.
-    do flip(crossings_[i].literal);
-    while (++i < crossings_.size() && crossings_[i].t <= t + ray_tolerance_);
+    do flip(crossings_[next_].literal);
+    while (++next_ < crossings_.size() && crossings_[next_].t <= t + ray_tolerance_);
     const bool after = value();
     if (after == solid_) continue;
-    const std::span<Crossing> group(&crossings_[first], i - first);
+    solid_ = after;
+    const std::span<Crossing> group(&crossings_[first], next_ - first);
     std::ranges::sort(group, {}, &Crossing::literal);  // the order of the file
     std::swap(group[0], group[decisive(group)]);
     change = describe(ray, t, group, after);
@@ -174,7 +176,8 @@ Change LeafSolver::describe(const LocalRay& ray, double t, std::span<const Cross
       if (literals[crossing.literal].literal >> 1 == face.literal >> 1) literal = crossing.literal;
   }
   // Out of the half-space is out of the solid too if both were entered or both left.
-  return {t, id, literals[literal].literal >> 1, bool(is_inside_[literal]) != solid_after};
+  return {t, id, literals[literal].literal >> 1, bool(is_inside_[literal]) != solid_after,
+          solid_after};
 }
 
 uint32_t LeafSolver::owner_of(const Leaf& leaf, uint64_t state, uint32_t literal) {

@@ -23,6 +23,7 @@ struct Change {
   uint32_t id;          ///< owner primitive
   uint32_t half_space;  ///< whose surface is there
   bool turned;          ///< the solid is on the other side of it than the half-space
+  bool enters;          ///< beyond it is the solid
 };
 
 /// How a half-space's sign behaves on the way from t0 to t1 of several rays, one bit a ray. It is
@@ -82,10 +83,10 @@ class LeafSolver {
   bool differs(Inside inside) const;
   Change change_at_start(const LocalRay& ray, double t0, uint32_t nearest);
 
-  /// Finds the first t in (t0, t1] at which the solid in the leaf taken changes. Otherwise false,
-  /// and `inside` tells the value at t1. Crossings at equal t, or nearly so (ray_tolerance()),
-  /// coincide.
-  bool first_change(const LocalRay& ray, Inside& inside, Change& change);
+  /// Finds the next t in (t0, t1] at which the solid in the leaf taken changes. If there is none,
+  /// or none any more, false, and `inside` tells the value at t1. Crossings at equal t, or nearly
+  /// so (ray_tolerance()), coincide.
+  bool next_change(const LocalRay& ray, Inside& inside, Change& change);
 
   /// The owner (id) of a change by the crossing of one literal alone, in a leaf with a truth table;
   /// kSharedOwner if it depends on more than `state`, bit i of which says "inside literal i" after
@@ -133,7 +134,8 @@ class LeafSolver {
   const Leaf* leaf_ = nullptr;
   std::vector<uint8_t> is_inside_;   ///< by literal: inside the half-space itself, at this point
   std::vector<Crossing> crossings_;  ///< in (t0, t1], sorted
-  bool solid_ = false;               ///< at t0
+  size_t next_ = 0;                  ///< of the crossings, the first that is yet to come
+  bool solid_ = false;               ///< before it
   uint64_t state_ = 0;               ///< kTable: the bits of is_inside_
   uint32_t count_ = 0;               ///< conjunction, disjunction: literals that are true
   // kProgram: the answer depends on the literals on the path to it alone. When one of them flips,

@@ -69,11 +69,14 @@ class Tile {
   void add_owner(size_t packet, uint32_t lane, uint32_t id) {
     what_[packet * lanes() + lane] |= uint64_t(id) << 32;
   }
-  LocalRay ray(size_t packet, uint32_t lane) const {
-    const size_t i = packet * lanes() + lane;
+  LocalRay ray(size_t packet, uint32_t lane) const { return ray(packet * lanes() + lane); }
+  LocalRay ray(size_t i) const {
     return {{origin_[0][i], origin_[1][i], origin_[2][i]},
             {direction_[0][i], direction_[1][i], direction_[2][i]}};
   }
+
+  /// What t at the ray's own start is more than t here.
+  double shift(size_t i) const { return shift_[i]; }
 
   size_t rays = 0, packets = 0;
   bool from_within = false;  ///< some ray starts in the region

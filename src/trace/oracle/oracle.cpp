@@ -76,6 +76,21 @@ class OracleTracer final : public Tracer {
                [&](size_t i, Scratch& scratch) { hits[i] = trace(rays[i], scratch); });
   }
 
+  void cast_through(std::span<const Ray> rays, RayCrossings& found) override {
+    std::vector<std::vector<SurfaceCrossing>> of_ray(rays.size());
+    for_ranges(rays.size(), {}, [&](size_t i, Scratch& scratch) {
+      walk(rays[i], scratch, [&](const SurfaceCrossing& crossing) {
+        of_ray[i].push_back(crossing);
+        return true;
+      });
+    });
+    found = {};
+    for (const std::vector<SurfaceCrossing>& crossings : of_ray) {
+      found.all.insert(found.all.end(), crossings.begin(), crossings.end());
+      found.ends.push_back(found.all.size());
+    }
+  }
+
  private:
   template <class Work>
   void for_ranges(size_t count, const Progress& progress, const Work& work) {
@@ -90,10 +105,21 @@ class OracleTracer final : public Tracer {
   }
 
   Hit trace(const Ray& ray, Scratch& scratch) const {
+    Hit hit;
+    walk(ray, scratch, [&](const SurfaceCrossing& c) {
+      hit = {float(c.distance), c.id, {float(c.normal.x), float(c.normal.y), float(c.normal.z)}};
+      return false;
+    });
+    return hit;
+  }
+
+  /// Calls `visit` for what the ray crosses, one after the other, as long as it returns true.
+  template <class Visit>
+  void walk(const Ray& ray, Scratch& scratch, const Visit& visit) const {
     double start = ray.t_min, end = kInfinity;
     if (!bounds_.bounded) {
       const Span region = ray_span(view_region(bounds_), ray.origin, ray.direction);
-      if (region.is_empty()) return {};
+      if (region.is_empty()) return;
       start = std::max(start, region.t0);
       end = region.t1;
     }
@@ -127,7 +153,6 @@ class OracleTracer final : public Tracer {
     }
     std::ranges::sort(crossings, {}, [](const Crossing& c) { return std::tuple(c.t, c.leaf); });
 
-    Hit hit;
     for (size_t begin = 0; begin < crossings.size();) {
       // Surfaces that are one are crossed at one t; others may be but for rounding, which grows
       // with the eye's distance.
@@ -145,14 +170,12 @@ class OracleTracer final : public Tracer {
                                            crossings.begin() + std::ptrdiff_t(group_end),
                                            [&](const Crossing& c) { return c.leaf == owner; });
         const Vec3 n = state.value() == crossing->enters ? crossing->normal : -crossing->normal;
-        hit = {float(t), ids_[owner], {float(n.x), float(n.y), float(n.z)}};
-        break;
+        if (!visit(SurfaceCrossing{t, ids_[owner], state.value(), n})) break;
       }
       begin = group_end;
     }
     for (const uint32_t leaf : leaves_)
       if (state.is_inside(leaf)) state.flip(leaf);
-    return hit;
   }
 
   std::vector<Instance> instances_;

@@ -115,6 +115,9 @@ class RasterTracerImpl final : public RasterTracer {
   }
 
   void cast(std::span<const Ray> rays, std::span<Hit> hits) override { second().cast(rays, hits); }
+  void cast_through(std::span<const Ray> rays, RayCrossings& found) override {
+    second().cast_through(rays, found);
+  }
 
  private:
   Tracer& second() {
