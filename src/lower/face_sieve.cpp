@@ -37,10 +37,12 @@ double turned(Vec3 n) {
 /// Whether a's plane lies on b's over the reach of a's primitive, turned either way.
 bool may_be_one_over(const HalfSpace& a, const Reach& reach, const HalfSpace& b) {
   const Vec3 n = a.f.b * 2.0, m = b.f.b * 2.0;
-  const double parting = std::min(length(n - m), length(n + m));
   const Vec3 foot = reach.center - n * dot(n, reach.center - a.center);
   // A little more than the tolerance, as equal ones differ by a little. What is no number is near.
-  return !(std::fabs(dot(m, foot - b.center)) + parting * reach.radius > 1.01 * reach.tolerance);
+  const double off = std::fabs(dot(m, foot - b.center)), most = 1.01 * reach.tolerance;
+  if (off > most) return false;
+  const double parting = std::sqrt(std::min(dot(n - m, n - m), dot(n + m, n + m)));
+  return !(off + parting * reach.radius > most);
 }
 
 bool may_be_one(const HalfSpace& a, const Reach& a_reach, const HalfSpace& b,

@@ -313,6 +313,40 @@ Verdict cut_bent_faces(Surface& surface, bool inside_out) {
   return verdict;
 }
 
+/// How far above its face, as it is printed, a corner of a convex solid may be, so far from the
+/// face's middle.
+double forgiven(const Surface& surface, const Face& face, double distance) {
+  return surface.stray * (2 + face.turn * distance);
+}
+
+std::string not_convex(uint32_t corner, double beyond, const Face& face) {
+  return fmt::format("it is not convex: point {} lies {:.3g} outside face {}", corner, beyond,
+                     face.number);
+}
+
+/// Why it is not convex, if a few of the faces and a few of the corners, all over the solid, tell
+/// that already. Of most meshes that are not they do, and the rest need not be found out.
+///
+/// Twice what is forgiven is sure: a face that is in the plane of a wider one is off it by less
+/// than a corner may stray, so that no corner below that plane is so far above the face.
+std::optional<std::string> find_dent(const Surface& surface) {
+  constexpr size_t kFew = 64;
+  const std::vector<Face>& faces = surface.faces;
+  const size_t face_step = faces.size() / kFew, corner_step = surface.corners.size() / kFew;
+  if (face_step == 0 || corner_step == 0) return std::nullopt;
+  for (size_t f = 0; f < faces.size(); f += face_step) {
+    const Face& face = faces[f];
+    if (!surface.has_direction(face)) continue;
+    for (size_t c = 0; c < surface.corners.size(); c += corner_step) {
+      const Vec3 away = surface.corners[c].place - face.middle;
+      const double beyond = dot(face.normal, away);
+      if (beyond > 2 * forgiven(surface, face, length(away)))
+        return not_convex(surface.corners[c].number, beyond, face);
+    }
+  }
+  return std::nullopt;
+}
+
 /// The plane of a face, pushed out to the farthest corner; or why that would be too far.
 std::variant<Plane, std::string> supporting_plane(const Surface& surface, const Face& face,
                                                   const CornerTree& tree) {
@@ -320,19 +354,18 @@ std::variant<Plane, std::string> supporting_plane(const Surface& surface, const 
   const double mean = dot(n, face.middle);
   double support = -kInfinity;
   for (const uint32_t i : face.loop) support = std::max(support, dot(n, surface.points[i]));
-  const auto forgiven = [&](double distance) { return surface.stray * (2 + face.turn * distance); };
   std::string reason;
   tree.search(
       n, face.middle,
       [&](double height, double distance) {
-        return reason.empty() && (height > support || height - mean > forgiven(distance));
+        return reason.empty() &&
+               (height > support || height - mean > forgiven(surface, face, distance));
       },
       [&](const CornerTree::Corner& corner) {
         const double height = dot(n, corner.place), beyond = height - mean;
         support = std::max(support, height);
-        if (beyond > forgiven(length(corner.place - face.middle)))
-          reason = fmt::format("it is not convex: point {} lies {:.3g} outside face {}",
-                               corner.number, beyond, face.number);
+        if (beyond > forgiven(surface, face, length(corner.place - face.middle)))
+          reason = not_convex(corner.number, beyond, face);
       });
   if (!reason.empty()) return reason;
   return Plane{n, support};
@@ -414,6 +447,7 @@ Verdict build_planes(Polyhedron& polyhedron) {
     for (Face& face : faces) face.normal = -face.normal;
   Verdict verdict = cut_bent_faces(surface, inside_out);
   if (!verdict.refusal.empty()) return verdict;
+  if (auto reason = find_dent(surface)) return {.refusal = std::move(*reason)};
   if (auto reason = check_closed(faces, surface.edges)) return {.refusal = std::move(*reason)};
 
   // Widest first: the direction of a sliver is the least certain, so that a sliver in the plane of

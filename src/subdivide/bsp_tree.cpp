@@ -37,8 +37,11 @@ uint32_t BspTree::choose(std::span<const uint32_t> polygons, const CellPolygons&
     if (plane == last) continue;
     last = plane;
     ++tried;
-    size_t front = 0, back = 0, cut = 0;
+    size_t front = 0, back = 0, cut = 0, cost = 0;
     for (const uint32_t number : polygons) {
+      // It only grows.
+      cost = 8 * cut + std::min(front, back);
+      if (cost >= least) break;
       const CellPolygons::Polygon& polygon = in.polygons[number];
       if (polygon.plane == plane) continue;
       bool has_front = false, has_back = false;
@@ -51,7 +54,7 @@ uint32_t BspTree::choose(std::span<const uint32_t> polygons, const CellPolygons&
       front += has_front && !has_back;
       back += has_back && !has_front;
     }
-    const size_t cost = 8 * cut + std::min(front, back);
+    cost = 8 * cut + std::min(front, back);
     if (cost < least) least = cost, best = plane;
     if (cost == 0) break;
   }

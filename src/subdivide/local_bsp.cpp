@@ -51,7 +51,10 @@ std::span<const Token> LocalBsp::formula(const Unit& unit, const CellBox& cell, 
                                          const ListedTriangles& known) {
   const Boundary& boundary = scene_.boundaries[unit.boundary];
   polygons_.collect(scene_, boundary, cell, [&](const auto& take) {
-    visit_in(boundary, known, cell, boundary.slack(), take);
+    if (known)
+      std::ranges::for_each(*known, take);
+    else
+      visit_in(boundary, known, cell, boundary.slack(), take);
   });
   if (polygons_.polygons.empty()) {
     const bool value = is_inside(unit, cell) != negated;

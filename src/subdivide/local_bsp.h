@@ -37,6 +37,8 @@ class LocalBsp {
 
   /// The formula in the cell: an operand, whose groups have no passes among them. An empty group if
   /// it is constant there. What it refers to is overwritten by the next call.
+  ///
+  /// `known`: the triangles that reach the cell, as count() lists them.
   std::span<const Token> formula(const Unit& unit, const CellBox& cell, bool negated,
                                  const ListedTriangles& known = std::nullopt);
   /// Of that formula: how many operands its outermost group has.

@@ -63,9 +63,13 @@ SplitRules::Outlook SplitRules::outlook(const OpenCell& open) const {
                (is_auto_ ? o.rays * 0.25 < kFewestRays : edge * 0.5 < settings_.smallest_edge) ||
                open.stalled >= stall_limit(open.literals) || open.depth >= kMostDepth ||
                open.memory < split_bytes;
-  // To split a crowd of triangles takes much less than to make a formula of them.
-  o.is_long = !o.must_end && (open.is_crowded || (open.literals > kExpandAll &&
-                                                  !has_few_half_spaces(scene_, open.tokens())));
+  // To split takes much less than to make a formula of triangles: of a crowd of them, or where even
+  // one that is a single group would not be the end.
+  const bool is_never_simple =
+      is_auto_ && open.near_count > 0 && pays_off(open.literals, o.rays, kQuickLiterals);
+  o.is_long =
+      !o.must_end && (open.is_crowded || is_never_simple ||
+                      (open.literals > kExpandAll && !has_few_half_spaces(scene_, open.tokens())));
   return o;
 }
 

@@ -51,9 +51,9 @@ inline constexpr std::array<uint32_t, kTileRays> kInOrder = [] {
 
 /// A leaf with more literals than this is long: of its literals nothing is kept but signs, and the
 /// rest is computed again where it is needed.
-inline constexpr size_t kKeptLiterals = 32;
+inline constexpr size_t kKeptLiterals = 64;
 /// Programs of more steps than this are run for each ray by itself.
-inline constexpr size_t kMostSteps = 64;
+inline constexpr size_t kMostSteps = 128;
 
 /// f of one half-space along the rays of a group.
 struct alignas(64) GroupAlong {

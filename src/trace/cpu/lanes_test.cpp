@@ -98,10 +98,10 @@ TEST(Lanes, RunProgramsAsLeafSolverDoes) {
   for (uint64_t seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE(seed);
     const Model model = model_of(random_tree(
-        seed, {.primitives = 40, .coincident = seed % 4 >= 2, .nearly = seed % 4 == 3}));
+        seed, {.primitives = 60, .coincident = seed % 4 >= 2, .nearly = seed % 4 == 3}));
     const Scene scene = *lower(model);
     SubdivideSettings settings;
-    settings.leaf_size = std::array{9u, 20u, 48u}[seed % 3];
+    settings.leaf_size = std::array{9u, 30u, 90u}[seed % 3];
     const SubdivideStats stats = statistics_of(subdivide(scene, settings));
     programs[seed % 3] += stats.cells[size_t(CellKind::kProgram)];
     hit += expect_same(scene, settings, cameras_for(model, 52, 39));
