@@ -68,8 +68,7 @@ bool is_same(const ExactLine& a, const ExactLine& b) {
   return true;
 }
 
-NumberedLines number_lines(size_t n,
-                           const std::function<std::array<uint32_t, 2>(size_t)>& pair_of,
+NumberedLines number_lines(size_t n, const std::function<std::array<uint32_t, 2>(size_t)>& pair_of,
                            const ExactGeometry& geometry, const Workers& workers) {
   const auto planes_of = [&](size_t i) {
     const std::array<uint32_t, 2> pair = pair_of(i);

@@ -32,8 +32,7 @@ struct NumberedLines {
 
 /// Numbers the lines of pairs of planes, as `pair_of(i)` says them for i < n. Preconditions as
 /// above.
-NumberedLines number_lines(size_t n,
-                           const std::function<std::array<uint32_t, 2>(size_t)>& pair_of,
+NumberedLines number_lines(size_t n, const std::function<std::array<uint32_t, 2>(size_t)>& pair_of,
                            const ExactGeometry& geometry, const Workers& workers);
 
 }  // namespace whittle

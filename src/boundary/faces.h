@@ -16,7 +16,7 @@ namespace whittle {
 struct HalfEdge {
   Sheet sheet;
   uint32_t from, to;  ///< into FaceOutlines::points
-  uint32_t twin;  ///< the same edge as its other face runs along it
+  uint32_t twin;      ///< the same edge as its other face runs along it
 };
 
 /// The boundary as closed outlines. Every edge is there exactly twice, once each way.

@@ -185,12 +185,11 @@ class LinesJoiner {
     for (size_t i = 1; i < firsts_.size(); ++i) firsts_[i] += firsts_[i - 1];
     next_ = firsts_;
     spans_.resize(edges.size());
-    for (const uint32_t edge : edges)
-      spans_[next_[lines_.numbers[edge] - first]++] = span_of(edge);
+    for (const uint32_t edge : edges) spans_[next_[lines_.numbers[edge] - first]++] = span_of(edge);
     for (size_t i = 0; i + 1 < firsts_.size(); ++i) {
       const auto on_line = std::span(spans_).subspan(firsts_[i], firsts_[i + 1] - firsts_[i]);
-      out.is_closed = out.is_closed &&
-                      joiner_.join(lines_.axes[first + i], on_line, out.edges, out.shared);
+      out.is_closed =
+          out.is_closed && joiner_.join(lines_.axes[first + i], on_line, out.edges, out.shared);
     }
   }
 
