@@ -43,19 +43,38 @@ class PieceCollector {
         for (size_t i = chunk * kChunk; i < std::min(n, (chunk + 1) * kChunk); ++i)
           add(maker, i, chunks[chunk]);
     });
-    for (Pieces& chunk : chunks) append(chunk, out);
+    append(chunks, out);
   }
 
  private:
-  static void append(const Pieces& from, Pieces& to) {
-    const auto points = uint32_t(to.points.size());
-    to.points.insert(to.points.end(), from.points.begin(), from.points.end());
-    for (Pieces::Edge edge : from.edges) {
-      edge.from += points, edge.to += points;
-      to.edges.push_back(edge);
+  /// One after the other.
+  void append(std::vector<Pieces>& chunks, Pieces& out) const {
+    struct Start {
+      size_t points, edges;
+    };
+    std::vector<Start> starts;
+    Start next{out.points.size(), out.edges.size()};
+    for (const Pieces& chunk : chunks) {
+      starts.push_back(next);
+      next.points += chunk.points.size(), next.edges += chunk.edges.size();
+      out.owners.insert(out.owners.end(), chunk.owners.begin(), chunk.owners.end());
+      out.count += chunk.count;
     }
-    to.owners.insert(to.owners.end(), from.owners.begin(), from.owners.end());
-    to.count += from.count;
+    out.points.resize(next.points);
+    out.edges.resize(next.edges);
+    workers_.for_parts(chunks.size(), 1, [&](size_t first, size_t last, size_t) {
+      for (size_t i = first; i < last; ++i) {
+        const Pieces chunk = std::move(chunks[i]);
+        std::copy(chunk.points.begin(), chunk.points.end(),
+                  out.points.begin() + std::ptrdiff_t(starts[i].points));
+        const auto points = uint32_t(starts[i].points);
+        std::transform(chunk.edges.begin(), chunk.edges.end(),
+                       out.edges.begin() + std::ptrdiff_t(starts[i].edges), [&](auto edge) {
+                         edge.from += points, edge.to += points;
+                         return edge;
+                       });
+      }
+    });
   }
 
   const Workers& workers_;
@@ -161,8 +180,7 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
     collector.collect(contacts.size(), add_contact, pieces);
     s.contacts = contacts.size();
     lap(s.cut_ms);
-    LineTable lines(geometry);
-    const Result<FaceOutlines> outlines = join(pieces, geometry, lines, workers);
+    const Result<FaceOutlines> outlines = join(pieces, geometry, workers);
     lap(s.join_ms);
     if (!outlines) {
       if (s.asked_all_contacts) return outlines.error();

@@ -1,7 +1,11 @@
 #include "boundary/exact_line.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
+
+#include "boundary/numbering.h"
 
 namespace whittle {
 namespace {
@@ -12,10 +16,21 @@ Int128 magnitude(Int128 value) {
   return value < 0 ? -value : value;
 }
 
+/// The largest integer that is no more than a / b * 2^bits. Precondition: it is less than 2^55.
+int64_t floor_of_ratio(const Wide4& a, const Wide4& b, int bits) {
+  const long double ratio = std::ldexp(a.rounded() / b.rounded(), bits);
+  const long double floor = std::floor(ratio);
+  // What rounding made of the ratio decides nothing unless it is next to an integer.
+  constexpr long double kRounding = 16 * std::numeric_limits<long double>::epsilon();
+  const long double error = std::fabs(ratio) * kRounding;
+  if (ratio - error > floor && ratio + error < floor + 1) return int64_t(floor);
+  bool is_whole;
+  return floor_of_quotient(a.shifted(unsigned(bits)), b, is_whole);
+}
+
 }  // namespace
 
-ExactLine LineTable::make(uint32_t plane_a, uint32_t plane_b) const {
-  const ExactPlane &a = geometry_.plane(plane_a), &b = geometry_.plane(plane_b);
+ExactLine line_of(const ExactPlane& a, const ExactPlane& b) {
   ExactLine line;
   line.direction = direction(a, b);
   for (int i = 1; i < 3; ++i)
@@ -30,20 +45,19 @@ ExactLine LineTable::make(uint32_t plane_a, uint32_t plane_b) const {
   return line;
 }
 
-/// Rounded in the same way whatever the scale of the coordinates.
-LineTable::Key LineTable::key(const ExactLine& line) {
+uint32_t hash_of(const ExactLine& line) {
+  // Rounded in the same way whatever the scale of the coordinates.
   const size_t axis = size_t(line.axis), u = (axis + 1) % 3, v = (axis + 2) % 3;
   const Wide4 most(line.direction[axis]);
-  const auto quotient = [&](const Wide4& value, unsigned bits) {
-    bool is_whole;
-    return floor_of_quotient(value.shifted(bits), most, is_whole);
-  };
-  return {quotient(Wide4(line.direction[u]), 60) * 4 + line.axis,
-          quotient(Wide4(line.direction[v]), 60), quotient(Wide4(line.moment[u]), 30),
-          quotient(Wide4(line.moment[v]), 30)};
+  auto hash = uint64_t(line.axis);
+  for (const size_t i : {u, v}) {
+    hash = add_to_hash(hash, uint64_t(floor_of_ratio(Wide4(line.direction[i]), most, 40)));
+    hash = add_to_hash(hash, uint64_t(floor_of_ratio(Wide4(line.moment[i]), most, 20)));
+  }
+  return uint32_t(hash);
 }
 
-bool LineTable::is_same(const ExactLine& a, const ExactLine& b) {
+bool is_same(const ExactLine& a, const ExactLine& b) {
   if (a.axis != b.axis) return false;
   const size_t axis = size_t(a.axis);
   const Wide4 a_most(a.direction[axis]), b_most(b.direction[axis]);
@@ -54,43 +68,34 @@ bool LineTable::is_same(const ExactLine& a, const ExactLine& b) {
   return true;
 }
 
-LineTable::Named& LineTable::place_of(uint64_t planes) {
-  uint64_t hash = planes * 0x9e3779b97f4a7c15;
-  hash ^= hash >> 32;
-  const size_t mask = named_.size() - 1;
-  size_t at = hash & mask;
-  while (named_[at].planes != UINT64_MAX && named_[at].planes != planes) at = (at + 1) & mask;
-  return named_[at];
-}
-
-uint32_t LineTable::number(uint32_t plane_a, uint32_t plane_b) {
-  const auto [low, high] = std::minmax(plane_a, plane_b);
-  const uint64_t planes = uint64_t(low) << 32 | high;
-  if (const Named& known = place_of(planes); known.planes == planes) return known.line;
-  const ExactLine line = make(low, high);
-  const Key its_key = key(line);
-  const auto [first, last] = by_key_.equal_range(its_key);
-  const auto equal = std::find_if(
-      first, last, [&](const auto& entry) { return is_same(line, lines_[entry.second]); });
-  const uint32_t number = equal != last ? equal->second : uint32_t(lines_.size());
-  if (equal == last) {
-    lines_.push_back(line);
-    by_key_.emplace(its_key, number);
-  }
-  if (2 * ++named_count_ > named_.size()) {
-    const std::vector<Named> before = std::exchange(named_, std::vector<Named>(2 * named_.size()));
-    for (const Named& named : before)
-      if (named.planes != UINT64_MAX) place_of(named.planes) = named;
-  }
-  place_of(planes) = {planes, number};
-  return number;
-}
-
-size_t LineTable::Hash::operator()(const Key& key) const {
-  uint64_t hash = 0;
-  for (const int64_t part : key)
-    hash = (hash ^ uint64_t(part)) * 0x9e3779b97f4a7c15, hash ^= hash >> 32;
-  return hash;
+NumberedLines number_lines(size_t n, const std::function<std::array<uint32_t, 2>(size_t)>& pair_of,
+                           const ExactGeometry& geometry, const Workers& workers) {
+  const auto planes_of = [&](size_t i) {
+    const std::array<uint32_t, 2> pair = pair_of(i);
+    const auto [low, high] = std::minmax(pair[0], pair[1]);
+    return uint64_t(low) << 32 | high;
+  };
+  Numbering pairs = number_equals(
+      n, [&](size_t i) { return uint32_t(add_to_hash(0, planes_of(i))); },
+      [&](size_t i, size_t j) { return planes_of(i) == planes_of(j); }, workers);
+  const auto line = [&](size_t pair) {
+    const uint64_t planes = planes_of(pairs.firsts[pair]);
+    return line_of(geometry.plane(uint32_t(planes >> 32)), geometry.plane(uint32_t(planes)));
+  };
+  std::vector<uint8_t> axes(pairs.firsts.size());
+  const Numbering lines = number_equals(
+      pairs.firsts.size(),
+      [&](size_t i) {
+        const ExactLine its_line = line(i);
+        axes[i] = uint8_t(its_line.axis);
+        return hash_of(its_line);
+      },
+      [&](size_t i, size_t j) { return is_same(line(i), line(j)); }, workers);
+  NumberedLines result;
+  for (const uint32_t first : lines.firsts) result.axes.push_back(axes[first]);
+  result.numbers = std::move(pairs.numbers);
+  for (uint32_t& number : result.numbers) number = lines.numbers[number];
+  return result;
 }
 
 }  // namespace whittle

@@ -3,9 +3,10 @@
 
 #include <array>
 #include <cstdint>
-#include <unordered_map>
+#include <functional>
 #include <vector>
 
+#include "base/workers.h"
 #include "boundary/exact_point.h"
 
 namespace whittle {
@@ -17,36 +18,21 @@ struct ExactLine {
   int axis = 0;                       ///< along which the direction is largest; positive there
 };
 
-class LineTable {
- public:
-  explicit LineTable(const ExactGeometry& geometry) : geometry_(geometry) {}
+/// The line in which two planes meet. Precondition: they are not parallel.
+ExactLine line_of(const ExactPlane& a, const ExactPlane& b);
+bool is_same(const ExactLine& a, const ExactLine& b);
+/// The same for equal lines, whichever planes name them. Precondition: the line meets the region.
+uint32_t hash_of(const ExactLine& line);
 
-  /// The line's number. Precondition: the planes are not parallel, and the line meets the region.
-  uint32_t number(uint32_t plane_a, uint32_t plane_b);
-
-  const ExactLine& operator[](uint32_t number) const { return lines_[number]; }
-  size_t size() const { return lines_.size(); }
-
- private:
-  using Key = std::array<int64_t, 4>;
-  struct Hash {
-    size_t operator()(const Key& key) const;
-  };
-  ExactLine make(uint32_t plane_a, uint32_t plane_b) const;
-  static Key key(const ExactLine& line);
-  static bool is_same(const ExactLine& a, const ExactLine& b);
-
-  const ExactGeometry& geometry_;
-  std::vector<ExactLine> lines_;
-  /// By pairs of planes, in a table with free places.
-  struct Named {
-    uint64_t planes = UINT64_MAX;
-    uint32_t line = 0;
-  };
-  Named& place_of(uint64_t planes);
-  std::vector<Named> named_ = std::vector<Named>(1024);
-  size_t named_count_ = 0;
-  std::unordered_multimap<Key, uint32_t, Hash> by_key_;
+/// Lines by number.
+struct NumberedLines {
+  std::vector<uint32_t> numbers;  ///< of each pair of planes
+  std::vector<uint8_t> axes;      ///< by number of line: ExactLine::axis
 };
+
+/// Numbers the lines of pairs of planes, as `pair_of(i)` says them for i < n. Preconditions as
+/// above.
+NumberedLines number_lines(size_t n, const std::function<std::array<uint32_t, 2>(size_t)>& pair_of,
+                           const ExactGeometry& geometry, const Workers& workers);
 
 }  // namespace whittle

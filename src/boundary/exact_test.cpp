@@ -43,7 +43,7 @@ TEST(WideInt, CountsAsSmallNumbersDo) {
     EXPECT_EQ(Wide(whittle::product(product / 2, a / 2)), Wide(product / 2) * Wide(a / 2));
     EXPECT_EQ(Wide(a) - Wide(b), Wide(Int128(a) - b));
     EXPECT_EQ(Wide(a).shifted(70), Wide(a) * Wide(Int128(1) << 70));
-    EXPECT_DOUBLE_EQ(Wide(product).rounded(), double(product));
+    EXPECT_DOUBLE_EQ(double(Wide(product).rounded()), double(product));
     EXPECT_EQ((Wide(a) - Wide(b)).sign(), a < b ? -1 : a > b ? 1 : 0);
   }
 }
@@ -135,7 +135,7 @@ TEST(ExactPoint, EqualPointsOfDifferentPlanesAreOne) {
       }
   ASSERT_GT(points.size(), 50u);
   std::vector<uint32_t> of_each;
-  EXPECT_EQ(unify(points, planes.geometry, of_each).size(), 1u);
+  EXPECT_EQ(unify(points, planes.geometry, Workers(2), of_each).size(), 1u);
 }
 
 TEST(ExactPoint, TurnAndOrderAreExactWhereNumbersAreRounded) {
@@ -155,17 +155,17 @@ TEST(ExactPoint, TurnAndOrderAreExactWhereNumbersAreRounded) {
   EXPECT_EQ(planes.geometry.turn(on_line[0], on_line[2], off, 1, 0), -1);
 }
 
-TEST(LineTable, OneLineHasOneNumber) {
+TEST(NumberLines, OneLineHasOneNumber) {
   Planes planes;
-  LineTable lines(planes.geometry);
   // Planes about the z axis.
   const uint32_t a = planes.add({1, 2, 0}, {}), b = planes.add({-5, 3, 0}, {}),
                  c = planes.add({1, 1, 0}, {}), d = planes.add({1, 1, 0}, {0.1, 0, 0});
-  EXPECT_EQ(lines.number(a, b), lines.number(b, a));
-  EXPECT_EQ(lines.number(a, b), lines.number(c, a));
-  EXPECT_EQ(lines.number(b, c), lines.number(c, a));
-  EXPECT_NE(lines.number(a, d), lines.number(c, a));
-  EXPECT_EQ(lines.size(), 2u);
+  const std::vector<std::array<uint32_t, 2>> pairs = {{a, b}, {b, a}, {c, a},
+                                                      {b, c}, {a, d}, {d, a}};
+  const NumberedLines lines = number_lines(
+      pairs.size(), [&](size_t i) { return pairs[i]; }, planes.geometry, Workers(2));
+  EXPECT_EQ(lines.numbers, (std::vector<uint32_t>{0, 0, 0, 0, 1, 1}));
+  EXPECT_EQ(lines.axes, (std::vector<uint8_t>{2, 2}));
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 
 #include "base/result.h"
 #include "base/workers.h"
-#include "boundary/exact_line.h"
 #include "boundary/pieces.h"
 
 namespace whittle {
@@ -17,8 +16,7 @@ namespace whittle {
 struct HalfEdge {
   Sheet sheet;
   uint32_t from, to;  ///< into FaceOutlines::points
-  uint32_t line;
-  uint32_t twin;  ///< the same edge as its other face runs along it
+  uint32_t twin;      ///< the same edge as its other face runs along it
 };
 
 /// The boundary as closed outlines. Every edge is there exactly twice, once each way.
@@ -35,7 +33,7 @@ struct FaceOutlines {
 /// material are twins, so that solids which only touch are apart (docs/decisions/0040-boundary.md).
 ///
 /// An error if the pieces do not bound a solid.
-Result<FaceOutlines> join(const Pieces& pieces, const ExactGeometry& geometry, LineTable& lines,
+Result<FaceOutlines> join(const Pieces& pieces, const ExactGeometry& geometry,
                           const Workers& workers);
 
 }  // namespace whittle

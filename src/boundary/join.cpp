@@ -1,58 +1,30 @@
 #include <algorithm>
-#include <numeric>
-#include <unordered_map>
 
+#include "boundary/exact_line.h"
 #include "boundary/faces.h"
+#include "boundary/numbering.h"
 #include "boundary/point_table.h"
 
 namespace whittle {
 namespace {
 
-/// An edge of a piece, or of what pieces became.
+/// An edge of a piece.
 struct Span {
-  uint32_t line;
   Sheet sheet;
   uint32_t low, high;  ///< points, along the line
   int direction;       ///< 1: it runs up the line
 };
 
-/// The edges of all pieces.
-std::vector<Span> spans_of(const Pieces& pieces, const ExactGeometry& geometry,
-                           std::span<const uint32_t> numbers, std::span<const ExactPoint> points,
-                           LineTable& lines) {
-  std::vector<Span> spans;
-  spans.reserve(pieces.edges.size());
-  for (const Pieces::Edge& edge : pieces.edges) {
-    const uint32_t from = numbers[edge.from], to = numbers[edge.to];
-    const uint32_t line = lines.number(edge.sheet >> 1, edge.plane);
-    const bool is_up = geometry.compare(points[from], points[to], lines[line].axis) < 0;
-    spans.push_back({line, edge.sheet, is_up ? from : to, is_up ? to : from, is_up ? 1 : -1});
-  }
-  return spans;
-}
-
-/// In the order of their lines; `firsts`: where each line's begin, and the end.
-std::vector<Span> by_line(const std::vector<Span>& spans, size_t lines,
-                          std::vector<size_t>& firsts) {
-  firsts.assign(lines + 1, 0);
-  for (const Span& span : spans) ++firsts[span.line + 1];
-  for (size_t i = 1; i < firsts.size(); ++i) firsts[i] += firsts[i - 1];
-  std::vector<size_t> next(firsts.begin(), firsts.end() - 1);
-  std::vector<Span> sorted(spans.size());
-  for (const Span& span : spans) sorted[next[span.line]++] = span;
-  return sorted;
-}
-
 /// The work on one line.
 class LineJoiner {
  public:
-  LineJoiner(const ExactGeometry& geometry, const LineTable& lines,
-             std::span<const ExactPoint> points)
-      : geometry_(geometry), lines_(lines), points_(points) {}
+  LineJoiner(const ExactGeometry& geometry, std::span<const ExactPoint> points)
+      : geometry_(geometry), points_(points) {}
 
-  /// Adds what is left of the edges on a line, and sorts them. False if it is no boundary.
-  bool join(std::span<Span> on_line, std::vector<HalfEdge>& out, size_t& shared) {
-    line_ = on_line[0].line;
+  /// Adds what is left of the edges on a line along `axis`, and sorts them. False if it is no
+  /// boundary.
+  bool join(int axis, std::span<Span> on_line, std::vector<HalfEdge>& out, size_t& shared) {
+    axis_ = axis;
     std::sort(on_line.begin(), on_line.end(),
               [](const Span& a, const Span& b) { return a.sheet < b.sheet; });
     rank(on_line);
@@ -65,11 +37,10 @@ class LineJoiner {
   void rank(std::span<const Span> on_line) {
     order_.clear();
     for (const Span& span : on_line) order_.push_back(span.low), order_.push_back(span.high);
-    const int axis = lines_[line_].axis;
     std::sort(order_.begin(), order_.end());
     order_.erase(std::unique(order_.begin(), order_.end()), order_.end());
     std::sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
-      return geometry_.compare(points_[a], points_[b], axis) < 0;
+      return geometry_.compare(points_[a], points_[b], axis_) < 0;
     });
     ranks_.clear();
     for (uint32_t i = 0; i < order_.size(); ++i) ranks_.push_back({order_[i], i});
@@ -141,8 +112,8 @@ class LineJoiner {
       const Rest& up = running_[(first + i + 1) % running_.size()];
       if (down.count != -1 || up.count != 1) return false;
       const auto number = uint32_t(out.size());
-      out.push_back({down.sheet, high, low, line_, number + 1});
-      out.push_back({up.sheet, low, high, line_, number});
+      out.push_back({down.sheet, high, low, number + 1});
+      out.push_back({up.sheet, low, high, number});
     }
     return true;
   }
@@ -150,7 +121,7 @@ class LineJoiner {
   /// Faces around the line, counter-clockwise seen against it. In their stead are turned their
   /// normals, outward where they run up the line and inward where they run down.
   void sort_around() {
-    const auto axis = size_t(lines_[line_].axis);
+    const auto axis = size_t(axis_);
     const auto normal = [&](const Rest& rest) {
       std::array<int64_t, 3> n = geometry_.plane(rest.sheet >> 1).n;
       if (bool(rest.sheet & 1) != (rest.count < 0))
@@ -180,28 +151,88 @@ class LineJoiner {
   }
 
   const ExactGeometry& geometry_;
-  const LineTable& lines_;
   std::span<const ExactPoint> points_;
-  uint32_t line_ = 0;
+  int axis_ = 0;
   std::vector<uint32_t> order_, ends_;
   std::vector<std::pair<uint32_t, uint32_t>> ranks_;  ///< by point
   std::vector<std::pair<uint32_t, int>> steps_;
   std::vector<Rest> rests_, running_;
 };
 
-/// Puts edges of one sheet in a row.
-void sort_by_sheet(std::vector<HalfEdge>& edges) {
-  std::vector<uint32_t> order(edges.size()), place(edges.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](uint32_t a, uint32_t b) { return edges[a].sheet < edges[b].sheet; });
-  for (uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
-  std::vector<HalfEdge> sorted;
-  sorted.reserve(edges.size());
-  for (const uint32_t i : order) {
-    sorted.push_back(edges[i]);
-    sorted.back().twin = place[edges[i].twin];
+/// The work on lines in a row.
+struct JoinedLines {
+  std::vector<HalfEdge> edges;
+  size_t shared = 0;
+  bool is_closed = true;
+};
+
+class LinesJoiner {
+ public:
+  LinesJoiner(const Pieces& pieces, std::span<const uint32_t> numbers,
+              std::span<const ExactPoint> points, const NumberedLines& lines,
+              const ExactGeometry& geometry)
+      : pieces_(pieces),
+        numbers_(numbers),
+        points_(points),
+        lines_(lines),
+        geometry_(geometry),
+        joiner_(geometry, points) {}
+
+  /// Of lines from `first` to before `last`; `edges`: of all pieces' those on them.
+  void join(size_t first, size_t last, std::span<const uint32_t> edges, JoinedLines& out) {
+    firsts_.assign(last - first + 1, 0);
+    for (const uint32_t edge : edges) ++firsts_[lines_.numbers[edge] - first + 1];
+    for (size_t i = 1; i < firsts_.size(); ++i) firsts_[i] += firsts_[i - 1];
+    next_ = firsts_;
+    spans_.resize(edges.size());
+    for (const uint32_t edge : edges) spans_[next_[lines_.numbers[edge] - first]++] = span_of(edge);
+    for (size_t i = 0; i + 1 < firsts_.size(); ++i) {
+      const auto on_line = std::span(spans_).subspan(firsts_[i], firsts_[i + 1] - firsts_[i]);
+      out.is_closed =
+          out.is_closed && joiner_.join(lines_.axes[first + i], on_line, out.edges, out.shared);
+    }
   }
+
+ private:
+  Span span_of(uint32_t number) const {
+    const Pieces::Edge& edge = pieces_.edges[number];
+    const uint32_t from = numbers_[edge.from], to = numbers_[edge.to];
+    const int axis = lines_.axes[lines_.numbers[number]];
+    const bool is_up = geometry_.compare(points_[from], points_[to], axis) < 0;
+    return {edge.sheet, is_up ? from : to, is_up ? to : from, is_up ? 1 : -1};
+  }
+
+  const Pieces& pieces_;
+  std::span<const uint32_t> numbers_;  ///< by the pieces' point: into points_
+  std::span<const ExactPoint> points_;
+  const NumberedLines& lines_;
+  const ExactGeometry& geometry_;
+  LineJoiner joiner_;
+  std::vector<Span> spans_;
+  std::vector<size_t> firsts_, next_;
+};
+
+/// Puts edges of one sheet in a row.
+void sort_by_sheet(std::vector<HalfEdge>& edges, size_t sheets, const Workers& workers) {
+  constexpr size_t kSheets = 256;
+  Buckets order = sort_into_buckets(
+      edges.size(), sheets / kSheets + 1, [&](size_t i) { return edges[i].sheet / kSheets; },
+      workers);
+  std::vector<uint32_t> place(edges.size());
+  std::vector<HalfEdge> sorted(edges.size());
+  workers.for_parts(order.count(), 1, [&](size_t begin, size_t end, size_t) {
+    for (size_t b = begin; b < end; ++b) {
+      const auto from = order.items.begin() + std::ptrdiff_t(order.firsts[b]),
+                 to = order.items.begin() + std::ptrdiff_t(order.firsts[b + 1]);
+      std::stable_sort(from, to,
+                       [&](uint32_t x, uint32_t y) { return edges[x].sheet < edges[y].sheet; });
+      for (size_t i = order.firsts[b]; i < order.firsts[b + 1]; ++i) {
+        sorted[i] = edges[order.items[i]];
+        place[order.items[i]] = uint32_t(i);
+      }
+    }
+  });
+  for (HalfEdge& edge : sorted) edge.twin = place[edge.twin];
   edges = std::move(sorted);
 }
 
@@ -222,34 +253,30 @@ void drop_unused(FaceOutlines& outlines) {
 
 }  // namespace
 
-Result<FaceOutlines> join(const Pieces& pieces, const ExactGeometry& geometry, LineTable& lines,
+Result<FaceOutlines> join(const Pieces& pieces, const ExactGeometry& geometry,
                           const Workers& workers) {
   FaceOutlines outlines;
   std::vector<uint32_t> numbers;
-  outlines.points = unify(pieces.points, geometry, numbers);
-  std::vector<size_t> firsts;
-  std::vector<Span> spans = spans_of(pieces, geometry, numbers, outlines.points, lines);
-  spans = by_line(spans, lines.size(), firsts);
+  outlines.points = unify(pieces.points, geometry, workers, numbers);
+  const NumberedLines lines = number_lines(
+      pieces.edges.size(),
+      [&](size_t i) {
+        return std::array<uint32_t, 2>{pieces.edges[i].sheet >> 1, pieces.edges[i].plane};
+      },
+      geometry, workers);
 
-  struct Part {
-    std::vector<HalfEdge> edges;
-    size_t shared = 0;
-    bool is_closed = true;
-  };
   constexpr size_t kLines = 1024;
-  std::vector<Part> parts((lines.size() + kLines - 1) / kLines);
+  const size_t count = lines.axes.size();
+  const Buckets buckets = sort_into_buckets(
+      pieces.edges.size(), (count + kLines - 1) / kLines,
+      [&](size_t i) { return lines.numbers[i] / kLines; }, workers);
+  std::vector<JoinedLines> parts(buckets.count());
   workers.for_parts(parts.size(), 1, [&](size_t begin, size_t end, size_t) {
-    LineJoiner joiner(geometry, lines, outlines.points);
-    for (size_t i = begin; i < end; ++i) {
-      Part& part = parts[i];
-      for (size_t line = i * kLines; line < std::min(lines.size(), (i + 1) * kLines); ++line) {
-        const size_t first = firsts[line], count = firsts[line + 1] - first;
-        part.is_closed = part.is_closed && joiner.join(std::span(spans).subspan(first, count),
-                                                       part.edges, part.shared);
-      }
-    }
+    LinesJoiner joiner(pieces, numbers, outlines.points, lines, geometry);
+    for (size_t i = begin; i < end; ++i)
+      joiner.join(i * kLines, std::min(count, (i + 1) * kLines), buckets[i], parts[i]);
   });
-  for (const Part& part : parts) {
+  for (JoinedLines& part : parts) {
     if (!part.is_closed) return Error{ErrorKind::kInput, "the boundary is not closed"};
     const auto before = uint32_t(outlines.edges.size());
     for (HalfEdge edge : part.edges) {
@@ -257,8 +284,9 @@ Result<FaceOutlines> join(const Pieces& pieces, const ExactGeometry& geometry, L
       outlines.edges.push_back(edge);
     }
     outlines.shared_edges += part.shared;
+    part.edges = {};
   }
-  sort_by_sheet(outlines.edges);
+  sort_by_sheet(outlines.edges, 2 * geometry.plane_count(), workers);
   drop_unused(outlines);
   return outlines;
 }

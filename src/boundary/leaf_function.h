@@ -68,9 +68,7 @@ class LeafFunction {
   uint32_t owner(const Scene& scene, uint32_t local_plane) const;
 
  private:
-  bool has_table() const {
-    return is_leaf(link_.kind()) && literals_.size() <= kTableLiterals;
-  }
+  bool has_table() const { return is_leaf(link_.kind()) && literals_.size() <= kTableLiterals; }
   uint64_t rows() const { return table_rows(uint32_t(literals_.size())); }
   std::optional<bool> is_inside(const Literal& literal, std::span<const PlaneSide> sides) const;
   Answer by_table(uint64_t table) const;

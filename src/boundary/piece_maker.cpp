@@ -119,8 +119,8 @@ void PieceMaker::split(Polygon polygon, uint32_t plane, uint32_t own, const Leaf
     bool has_below, has_above;
     look(part.polygon, by, has_below, has_above);
     if (has_below && has_above) {
-      open_.push_back({cut(part.polygon, plane, by, 1), part.below, part.above,
-                       uint32_t(known_.size()), asks});
+      open_.push_back(
+          {cut(part.polygon, plane, by, 1), part.below, part.above, uint32_t(known_.size()), asks});
       part.polygon = cut(part.polygon, plane, by, -1);
     }
     learn(part, asks, has_below ? -1 : 1, below, above);

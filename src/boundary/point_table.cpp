@@ -1,37 +1,27 @@
 #include "boundary/point_table.h"
 
-#include <bit>
+#include "boundary/numbering.h"
 
 namespace whittle {
 namespace {
 
-uint64_t hash_of(const ExactPoint& point) {
+uint32_t hash_of(const ExactPoint& point) {
   uint64_t hash = 0;
-  for (const int64_t part : point.floor)
-    hash = (hash ^ uint64_t(part)) * 0x9e3779b97f4a7c15, hash ^= hash >> 29;
-  return hash;
+  for (const int64_t part : point.floor) hash = add_to_hash(hash, uint64_t(part));
+  return uint32_t(hash);
 }
 
 }  // namespace
 
 std::vector<ExactPoint> unify(std::span<const ExactPoint> points, const ExactGeometry& geometry,
-                              std::vector<uint32_t>& numbers) {
-  constexpr uint32_t kFree = UINT32_MAX;
-  const size_t size = std::bit_ceil(2 * points.size() + 1);
-  std::vector<uint32_t> places(size, kFree);
+                              const Workers& workers, std::vector<uint32_t>& numbers) {
+  Numbering numbering = number_equals(
+      points.size(), [&](size_t i) { return hash_of(points[i]); },
+      [&](size_t i, size_t j) { return geometry.is_same(points[i], points[j]); }, workers);
   std::vector<ExactPoint> different;
-  numbers.clear();
-  numbers.reserve(points.size());
-  for (const ExactPoint& point : points) {
-    size_t at = hash_of(point) & (size - 1);
-    while (places[at] != kFree && !geometry.is_same(point, different[places[at]]))
-      at = (at + 1) & (size - 1);
-    if (places[at] == kFree) {
-      places[at] = uint32_t(different.size());
-      different.push_back(point);
-    }
-    numbers.push_back(places[at]);
-  }
+  different.reserve(numbering.firsts.size());
+  for (const uint32_t first : numbering.firsts) different.push_back(points[first]);
+  numbers = std::move(numbering.numbers);
   return different;
 }
 
