@@ -85,14 +85,32 @@ void PieceMaker::clip(Polygon& polygon, uint32_t by, PlaneSide keep, uint32_t pl
   polygon = std::move(part);
 }
 
-void PieceMaker::fill(Polygon polygon, uint32_t plane, const LeafFunction& below,
-                      const LeafFunction& above, Pieces& out) {
+OwnerFunction::Answer PieceMaker::owner(std::span<const PlaneSide> sides) const {
+  const OwnerFunction::Answer low = below_owner_.at(sides);
+  if (low.is_asking) return low;
+  const OwnerFunction::Answer high = above_owner_.at(sides);
+  if (high.is_asking || low.id == kSharedOwner) return high;
+  return high.id != kSharedOwner && high.id < low.id ? high : low;
+}
+
+/// `below` and `above` are what below_ and above_ are of.
+void PieceMaker::fill(Polygon polygon, uint32_t plane, CellLink below, CellLink above,
+                      Pieces& out) {
+  const bool is_one_cell = below.bits() == above.bits();
+  const LeafFunction& function_below = below_;
+  const LeafFunction& function_above = is_one_cell ? below_ : above_;
   const uint32_t own = local_.add(plane);
-  uint32_t owner = below.owner(scene_, own);
-  if (const uint32_t other = above.owner(scene_, own);
-      owner == kSharedOwner || (other != kSharedOwner && other < owner))
-    owner = other;
-  const size_t first_edge = out.edges.size(), first_piece = out.count;
+  uint32_t first = function_below.owner(scene_, own);
+  if (const uint32_t other = function_above.owner(scene_, own);
+      first == kSharedOwner || (other != kSharedOwner && other < first))
+    first = other;
+  const bool has_paints = paints_.are_several(plane);
+  if (has_paints) {
+    below_owner_.set(below, scene_, half_spaces_, local_, own);
+    above_owner_.set(above, scene_, half_spaces_, local_, own);
+  }
+  const size_t first_edge = out.edges.size(), first_piece = out.count,
+               first_owner = out.owners.size();
   open_.clear();
   open_.push_back({std::move(polygon), std::vector<PlaneSide>(local_.all().size(), 0)});
   while (!open_.empty()) {
@@ -101,14 +119,25 @@ void PieceMaker::fill(Polygon polygon, uint32_t plane, const LeafFunction& below
     while (true) {
       // The plane itself has each of the two on one side.
       part.sides[own] = -1;
-      const LeafFunction::Answer low = below.at(part.sides, part.below_from);
+      const LeafFunction::Answer low = function_below.at(part.sides, part.below_from);
       part.sides[own] = 1;
-      const LeafFunction::Answer high = above.at(part.sides, part.above_from);
+      const LeafFunction::Answer high = function_above.at(part.sides, part.above_from);
+      uint32_t asks = low.value ? high.asks : low.asks;
       if (low.value && high.value) {
-        if (*low.value != *high.value) emit(part.polygon, sheet_of(plane, *high.value), out);
-        break;
+        if (*low.value == *high.value) break;
+        const OwnerFunction::Answer its =
+            has_paints ? owner(part.sides) : OwnerFunction::Answer{first};
+        if (!its.is_asking) {
+          const uint32_t id = its.id == kSharedOwner ? first : its.id;
+          const uint32_t painted = has_paints ? paints_.painted(plane, id) : plane;
+          const Pieces::Owner owned{sheet_of(painted, *high.value), id};
+          emit(part.polygon, owned.sheet, out);
+          if (out.owners.size() == first_owner || out.owners.back() != owned)
+            out.owners.push_back(owned);
+          break;
+        }
+        asks = its.asks;
       }
-      const uint32_t asks = low.value ? high.asks : low.asks;
       const uint32_t by = local_.all()[asks];
       bool has_below, has_above;
       look(part.polygon, by, has_below, has_above);
@@ -125,11 +154,6 @@ void PieceMaker::fill(Polygon polygon, uint32_t plane, const LeafFunction& below
     }
   }
   if (out.count > first_piece + 1) cancel(first_edge, out);
-  for (const Sheet sheet : {sheet_of(plane, false), sheet_of(plane, true)}) {
-    const auto is_on = [&](const Pieces::Edge& edge) { return edge.sheet == sheet; };
-    if (std::any_of(out.edges.begin() + std::ptrdiff_t(first_edge), out.edges.end(), is_on))
-      out.owners.push_back({sheet, owner});
-  }
 }
 
 void PieceMaker::emit(const Polygon& polygon, Sheet sheet, Pieces& out) {
@@ -186,7 +210,7 @@ void PieceMaker::within(CellLink leaf, const CellSides& cell, Pieces& out) {
     Polygon polygon = rectangle(plane, axis, cell);
     clip(polygon, cell.lo[size_t(axis)], 1, plane);
     clip(polygon, cell.hi[size_t(axis)], -1, plane);
-    if (!polygon.empty()) fill(std::move(polygon), plane, below_, below_, out);
+    if (!polygon.empty()) fill(std::move(polygon), plane, leaf, leaf, out);
   }
 }
 
@@ -198,7 +222,7 @@ void PieceMaker::between(CellLink below, CellLink above, int axis, const CellSid
   above_.set(above, half_spaces_, local_);
   points_.clear();
   const uint32_t plane = sides.lo[size_t(axis)];
-  fill(rectangle(plane, axis, sides), plane, below_, above_, out);
+  fill(rectangle(plane, axis, sides), plane, below, above, out);
 }
 
 }  // namespace whittle

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "boundary/leaf_function.h"
+#include "boundary/owner_function.h"
+#include "boundary/paints.h"
 #include "boundary/pieces.h"
 
 namespace whittle {
@@ -41,10 +43,11 @@ class PointCache {
 class PieceMaker {
  public:
   PieceMaker(const Scene& scene, const ExactGeometry& geometry,
-             std::span<const PlacedHalfSpace> half_spaces)
+             std::span<const PlacedHalfSpace> half_spaces, const Paints& paints)
       : scene_(scene),
         geometry_(geometry),
         half_spaces_(half_spaces),
+        paints_(paints),
         local_(geometry.plane_count()) {}
 
   /// The pieces within a leaf's cell. What lies in its sides is left to between().
@@ -72,16 +75,19 @@ class PieceMaker {
   void cut(const Polygon& polygon, uint32_t plane, uint32_t by, PlaneSide keep, Polygon& part);
   /// Which sides of a plane the corners are on; fills signs_.
   void look(const Polygon& polygon, uint32_t by, bool& has_below, bool& has_above);
-  void fill(Polygon polygon, uint32_t plane, const LeafFunction& below, const LeafFunction& above,
-            Pieces& out);
+  void fill(Polygon polygon, uint32_t plane, CellLink below, CellLink above, Pieces& out);
+  /// The body that owns a part of the plane at hand, as far as that is known.
+  OwnerFunction::Answer owner(std::span<const PlaneSide> sides) const;
   void emit(const Polygon& polygon, Sheet sheet, Pieces& out);
   static void cancel(size_t first, Pieces& out);
 
   const Scene& scene_;
   const ExactGeometry& geometry_;
   std::span<const PlacedHalfSpace> half_spaces_;
+  const Paints& paints_;
   LocalPlanes local_;
   LeafFunction below_, above_;
+  OwnerFunction below_owner_, above_owner_;
   std::vector<ApproximatePoint> points_;
   PointCache emitted_;
   std::vector<PlaneSide> signs_;
