@@ -38,6 +38,9 @@ test_packages=(
   xvfb                # a display for it
   make                # reads the dependencies that -d writes
   lowdown             # makes the manual page
+  nodejs              # runs Manifold, an independent judge of meshes,
+  curl                # which scripts/fetch_manifold brings
+  ca-certificates     # from a place that can be trusted
 )
 
 report_packages=(

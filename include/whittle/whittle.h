@@ -115,13 +115,14 @@ struct Part {
   std::vector<float> distance;  ///< along the ray from the eye; infinity where nothing is hit
 };
 
-/// What a render is told, and tells, while it runs. All of it may be left out. The functions are
+/// What long work is told, and tells, while it runs. All of it may be left out. The functions are
 /// called from any thread, several at a time, and must not throw.
 struct Control {
   /// Once a stop is requested, the call returns soon, and without a result.
   std::stop_token stop{};
-  std::function<void(double share)> progress{};  ///< of the tracing that is done, 0 to 1
-  std::function<void(const Part&)> part{};       ///< before antialiasing and colours
+  /// Of a picture's tracing, or of a boundary, the share that is done, 0 to 1.
+  std::function<void(double share)> progress{};
+  std::function<void(const Part&)> part{};  ///< of pictures, before antialiasing and colours
 };
 
 /// A picture and its facts; width * height entries each, rows from the top, each from the left.
@@ -143,6 +144,32 @@ struct Rendering {
 struct Place {
   std::uint32_t line = 0, column = 0;
   bool operator==(const Place&) const = default;
+};
+
+/// The boundary of a solid: what `whittle part.csg -o part.off` writes, and whose it is. Closed,
+/// oriented and manifold by number of corner: every edge of a triangle is there exactly once each
+/// way. Where a solid touches itself, corners are there more than once, at one place.
+struct BoundaryMesh {
+  /// Runs of corners, the last of which is joined to the first. Seen from outside what is solid
+  /// lies to their left: outer loops run counter-clockwise, those of holes clockwise.
+  using Loop = std::vector<std::uint32_t>;
+  /// What a primitive statement has of the boundary in one plane, or several of them if they have
+  /// one colour: in one part or many.
+  struct Face {
+    std::uint32_t id = 0;  ///< the statement, of several the first
+    Point normal{};        ///< unit, outward
+    /// That of the outermost color() above it, red, green, blue and alpha, 0 to 1; none: no colour.
+    std::optional<std::array<float, 4>> color{};
+    std::vector<Loop> loops{};                             ///< into corners
+    std::uint32_t first_triangle = 0, triangle_count = 0;  ///< the same as triangles
+  };
+  std::vector<Point> corners;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
+  std::vector<Face> faces;
+
+  /// Writes a .stl (binary), .off, .obj, .3mf (with colours) or .amf, as the name ends. The file is
+  /// there whole or not at all.
+  void write(const std::string& path) const;
 };
 
 class Csg;
@@ -171,6 +198,13 @@ class Solid {
   /// The box that holds the solid, {lowest corner, highest corner}; none if the solid is empty or
   /// unbounded.
   std::optional<std::array<Point, 2>> bounds() const;
+
+  /// The boundary. A kInput failure if the solid is empty, without end or flat, or has true curves:
+  /// with LoadOptions::curves kFacets or kOpenscad2021 it has none, but for more than 2048 facets
+  /// around. `threads` 0: all; the result does not depend on it.
+  BoundaryMesh boundary(int threads = 0) const;
+  /// None if it was stopped.
+  std::optional<BoundaryMesh> boundary(const Control& control, int threads = 0) const;
 
   /// One picture; for several, a Session keeps what they share.
   Rendering render(const RenderOptions& options = {}, const SessionOptions& session = {}) const;

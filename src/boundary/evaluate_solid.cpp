@@ -1,6 +1,7 @@
 #include "boundary/evaluate_solid.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "base/timing.h"
@@ -8,6 +9,7 @@
 #include "boundary/collapse.h"
 #include "boundary/fill_faces.h"
 #include "boundary/finish.h"
+#include "boundary/paints.h"
 #include "subdivide/subdivide.h"
 
 namespace whittle {
@@ -25,23 +27,31 @@ bool has_plane(CellLink link, std::span<const PlacedHalfSpace> half_spaces, uint
 class PieceCollector {
  public:
   PieceCollector(const Scene& scene, const ExactGeometry& geometry,
-                 std::span<const PlacedHalfSpace> half_spaces, const Workers& workers)
+                 std::span<const PlacedHalfSpace> half_spaces, const Paints& paints,
+                 const Workers& workers, const BoundarySettings& settings)
       : workers_(workers),
         makers_(workers),
         scene_(scene),
         geometry_(geometry),
-        half_spaces_(half_spaces) {}
+        half_spaces_(half_spaces),
+        paints_(paints),
+        settings_(settings) {}
 
-  /// Adds what `add(maker, i, pieces)` makes for all i < n.
+  /// Adds what `add(maker, i, pieces)` makes for all i < n. Of all that is to be done these are the
+  /// shares `from` to `to`.
   template <class Add>
-  void collect(size_t n, const Add& add, Pieces& out) {
+  void collect(size_t n, const Add& add, double from, double to, Pieces& out) {
     constexpr size_t kChunk = 256;
     std::vector<Pieces> chunks((n + kChunk - 1) / kChunk);
+    std::atomic<size_t> done = 0;
     workers_.for_parts(chunks.size(), 1, [&](size_t first, size_t last, size_t worker) {
-      PieceMaker& maker = makers_.of(worker, scene_, geometry_, half_spaces_);
-      for (size_t chunk = first; chunk < last; ++chunk)
+      PieceMaker& maker = makers_.of(worker, scene_, geometry_, half_spaces_, paints_);
+      for (size_t chunk = first; chunk < last && !settings_.stop.stop_requested(); ++chunk) {
         for (size_t i = chunk * kChunk; i < std::min(n, (chunk + 1) * kChunk); ++i)
           add(maker, i, chunks[chunk]);
+        if (settings_.progress)
+          settings_.progress(from + (to - from) * double(++done) / double(chunks.size()));
+      }
     });
     append(chunks, out);
   }
@@ -82,6 +92,8 @@ class PieceCollector {
   const Scene& scene_;
   const ExactGeometry& geometry_;
   std::span<const PlacedHalfSpace> half_spaces_;
+  const Paints& paints_;
+  const BoundarySettings& settings_;
 };
 
 /// The lowest id of those that own a part of a sheet, by sheet.
@@ -135,7 +147,8 @@ std::vector<Contact> contacts_of(const CellTree& tree, const ExactGrid& grid,
 
 }  // namespace
 
-Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, BoundaryStats* stats) {
+Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, BoundaryStats* stats,
+                                 const BoundarySettings& settings) {
   if (Status possible = check_solid(scene); !possible) return possible.error();
   if (scene.region.is_empty()) return SolidMesh{};
 
@@ -152,19 +165,25 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
   std::vector<PlacedHalfSpace> half_spaces(scene.half_spaces.size());
   for (size_t i = 0; i < half_spaces.size(); ++i)
     half_spaces[i].plane = planes.add(grid.plane(scene.half_spaces[i], half_spaces[i].inside));
+  const Paints paints(scene, half_spaces, settings.paints, planes);
   const CellTree tree = open_cells(scene, {}, &workers);
   refine_all(tree, workers);
   const std::vector<WalkedLeaf> leaves = walk_leaves(tree, grid, planes);
   s.leaves = leaves.size();
   lap(s.cells_ms);
+  constexpr double kWithin = 0.4, kBetween = 0.6, kJoined = 0.7, kFilled = 0.9;
+  const auto is_stopped = [&](double share) {
+    if (settings.progress) settings.progress(share);
+    return settings.stop.stop_requested();
+  };
 
   const ExactGeometry geometry(planes);
-  PieceCollector collector(scene, geometry, half_spaces, workers);
+  PieceCollector collector(scene, geometry, half_spaces, paints, workers, settings);
   Pieces pieces;
   const auto add_leaf = [&](PieceMaker& maker, size_t i, Pieces& out) {
     maker.within(leaves[i].link, leaves[i].sides, out);
   };
-  collector.collect(leaves.size(), add_leaf, pieces);
+  collector.collect(leaves.size(), add_leaf, kWithin, kBetween, pieces);
   const PieceMark within(pieces);
 
   // Leaves are proven to agree where they touch, but for what lies there; where a body is a mesh
@@ -177,11 +196,13 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
       const Contact& contact = contacts[i];
       maker.between(contact.below, contact.above, contact.axis, contact.rectangle, out);
     };
-    collector.collect(contacts.size(), add_contact, pieces);
+    collector.collect(contacts.size(), add_contact, kBetween, kJoined, pieces);
     s.contacts = contacts.size();
     lap(s.cut_ms);
+    if (is_stopped(kJoined)) return SolidMesh{};
     const Result<FaceOutlines> outlines = join(pieces, geometry, workers);
     lap(s.join_ms);
+    if (is_stopped(kFilled)) return SolidMesh{};
     if (!outlines) {
       if (s.asked_all_contacts) return outlines.error();
       s.asked_all_contacts = true;
@@ -197,6 +218,7 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
     constexpr double kRounding = 1e-12;
     s.collapsed = collapse_short_edges(mesh, kRounding * max_component(scene.region.size()));
     lap(s.fill_ms);
+    if (is_stopped(1)) return SolidMesh{};
     return mesh;
   }
 }

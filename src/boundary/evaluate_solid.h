@@ -1,6 +1,12 @@
 // From a scene of planes to the boundary of its solid, exactly.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <stop_token>
+
 #include "base/result.h"
 #include "base/workers.h"
 #include "boundary/solid_mesh.h"
@@ -14,11 +20,22 @@ struct BoundaryStats {
   double cells_ms = 0, cut_ms = 0, join_ms = 0, fill_ms = 0;
 };
 
+struct BoundarySettings {
+  /// By id of body; empty: all are 0. Faces of different paints are apart though they lie in one
+  /// plane, and each is its own body's.
+  std::span<const uint32_t> paints{};
+  /// Once a stop is requested, evaluate_solid() returns soon, and its mesh is of no use.
+  std::stop_token stop{};
+  /// Told, from any thread, the share that is done, 0 to 1.
+  std::function<void(double share)> progress{};
+};
+
 /// The boundary of the scene's solid; nothing of an empty one. Its corners are right to a few units
 /// of the last place, or where edges no longer than 10^-12 of the region were drawn together, by as
 /// much. The same whatever the number of threads. A kInput error if the solid has no end, or curved
 /// surfaces.
 Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers,
-                                 BoundaryStats* stats = nullptr);
+                                 BoundaryStats* stats = nullptr,
+                                 const BoundarySettings& settings = {});
 
 }  // namespace whittle

@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "lower/evaluate.h"
 #include "lower/lower.h"
@@ -150,6 +155,102 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(RandomTreeOptions{.primitives = 8},
                     RandomTreeOptions{.primitives = 14, .coincident = true},
                     RandomTreeOptions{.primitives = 14, .coincident = true, .nearly = true}));
+
+/// How much of what is outward there is of each body.
+std::map<uint32_t, double> areas(const SolidMesh& mesh, Vec3 outward) {
+  std::map<uint32_t, double> areas;
+  for (const SolidMesh::Triangle& triangle : mesh.triangles) {
+    const SolidMesh::Face& face = mesh.faces[triangle.face];
+    if (dot(face.outward, outward) < 1 - 1e-12) continue;
+    const auto& [a, b, c] = triangle.corners;
+    areas[face.owner] +=
+        length(cross(mesh.corners[b] - mesh.corners[a], mesh.corners[c] - mesh.corners[a])) / 2;
+  }
+  return areas;
+}
+
+SolidMesh painted(const std::string& text, const std::vector<uint32_t>& paints) {
+  const Scene scene = facetted(text);
+  const Workers workers(2);
+  Result<SolidMesh> mesh = evaluate_solid(scene, workers, nullptr, {.paints = paints});
+  EXPECT_TRUE(mesh);
+  EXPECT_EQ(manifold_fault(*mesh), "");
+  return *std::move(mesh);
+}
+
+std::string at(const std::string& x) {
+  return "multmatrix([[1,0,0," + x + "],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) ";
+}
+
+TEST(EvaluateSolid, PaintsAreApartInOnePlane) {
+  using Areas = std::map<uint32_t, double>;
+  // Beside one another, with a gap, overlapping, and one in the other.
+  const std::string beside = "cube(1);" + at("1") + "cube(1);";
+  EXPECT_EQ(areas(painted(beside, {}), {0, 0, 1}), (Areas{{1, 2}}));
+  EXPECT_EQ(areas(painted(beside, {0, 1, 1}), {0, 0, 1}), (Areas{{1, 2}}));
+  EXPECT_EQ(areas(painted(beside, {0, 1, 2}), {0, 0, 1}), (Areas{{1, 1}, {2, 1}}));
+  const std::string aside = "cube(1);" + at("3") + "cube(1);";
+  EXPECT_EQ(areas(painted(aside, {0, 1, 2}), {0, 0, -1}), (Areas{{1, 1}, {2, 1}}));
+  // The first in the file owns what both have.
+  const std::string over = "cube(1);" + at("0.25") + "cube(1);";
+  EXPECT_EQ(areas(painted(over, {0, 1, 2}), {0, 0, 1}), (Areas{{1, 1}, {2, 0.25}}));
+  const std::string within =
+      "cube([4, 4, 1]); multmatrix([[1,0,0,1],[0,1,0,1],[0,0,1,0],[0,0,0,1]])"
+      "cube(1);";
+  EXPECT_EQ(areas(painted(within, {0, 1, 2}), {0, 0, 1}), (Areas{{1, 16}}));
+  // Of a plate the cutter is first asked, then what fills a part of the hole.
+  const std::string inlay =
+      "difference() { cube([4, 4, 1]); multmatrix([[1,0,0,1],[0,1,0,1],[0,0,1,-1],[0,0,0,1]])"
+      "cube([2, 2, 3]); } multmatrix([[1,0,0,1],[0,1,0,1],[0,0,1,0],[0,0,0,1]]) cube([2, 1, 1]);";
+  EXPECT_EQ(areas(painted(inlay, {0, 1, 2, 3}), {0, 0, 1}), (Areas{{1, 12}, {3, 2}}));
+  EXPECT_EQ(areas(painted(inlay, {0, 1, 2, 3}), {0, 1, 0}), (Areas{{1, 4}, {3, 2}}));
+}
+
+/// Who owns what is between two points, as the tie rules say it of the whole formula.
+uint32_t owner_between(const Scene& scene, Vec3 inside, Vec3 outside) {
+  const auto changes = [&](const Operand& operand) {
+    return contains(scene, operand.tokens, inside) != contains(scene, operand.tokens, outside);
+  };
+  Operand at = whole(scene.formula);
+  while (at.is_group()) {
+    const Operands operands = operands_of(at);
+    const auto chosen = std::ranges::find_if(operands, changes);
+    if (chosen == operands.end()) return 0;
+    at = *chosen;
+  }
+  return scene.units[at.token().payload()].id;
+}
+
+TEST(EvaluateSolid, EveryPaintedFaceIsItsOwners) {
+  size_t checked = 0;
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::string text = random_tree(seed, {.primitives = 14, .coincident = true});
+    const Scene scene = facetted(text);
+    uint32_t most = 0;
+    for (const Unit& unit : scene.units) most = std::max(most, unit.id);
+    std::vector<uint32_t> paints(most + 1);
+    std::iota(paints.begin(), paints.end(), 0u);
+    const SolidMesh mesh = painted(text, paints), plain = painted(text, {});
+    EXPECT_NEAR(volume(mesh), volume(plain), 1e-9 * volume(plain));
+    for (const SolidMesh::Triangle& triangle : mesh.triangles) {
+      const auto& [a, b, c] = triangle.corners;
+      const Vec3 ab = mesh.corners[b] - mesh.corners[a], ac = mesh.corners[c] - mesh.corners[a];
+      constexpr double kStep = 1e-3;
+      // In the middle of what is no sliver.
+      if (length(cross(ab, ac)) < 100 * kStep * std::max(length(ab), length(ac))) continue;
+      const Vec3 middle = mesh.corners[a] + (ab + ac) / 3 - scene.origin;
+      const SolidMesh::Face& face = mesh.faces[triangle.face];
+      const Vec3 step = face.outward * kStep;
+      if (const uint32_t id = owner_between(scene, middle - step, middle + step); id != 0) {
+        EXPECT_EQ(face.owner, id);
+        ++checked;
+      }
+    }
+    if (HasFailure()) break;
+  }
+  EXPECT_GT(checked, 3000u);
+}
 
 }  // namespace
 }  // namespace whittle

@@ -86,6 +86,12 @@ uint32_t PlaneTable::add(const ExactPlane& plane) {
   return at->second;
 }
 
+uint32_t PlaneTable::add_copy(uint32_t number) {
+  planes_.push_back(ExactPlane(planes_[number]));
+  rounded_.push_back(RoundedPlane(rounded_[number]));
+  return uint32_t(planes_.size() - 1);
+}
+
 size_t PlaneTable::Hash::operator()(const ExactPlane& plane) const {
   uint64_t hash = uint64_t(plane.d) ^ uint64_t(UInt128(plane.d) >> 64);
   for (const int64_t component : plane.n)

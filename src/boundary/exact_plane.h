@@ -59,6 +59,8 @@ class ExactGrid {
 class PlaneTable {
  public:
   uint32_t add(const ExactPlane& plane);
+  /// A plane once more, by a number of its own, which add() and find() do not give.
+  uint32_t add_copy(uint32_t number);
   /// The number of a plane that is there.
   uint32_t find(const ExactPlane& plane) const { return numbers_.at(plane); }
 

@@ -26,6 +26,8 @@ class LocalPlanes {
 
   void clear();
   uint32_t add(uint32_t plane);
+  /// The number of a plane that is among them.
+  uint32_t number(uint32_t plane) const { return numbers_[plane]; }
   std::span<const uint32_t> all() const { return planes_; }
 
  private:

@@ -105,8 +105,19 @@ void PieceMaker::split(Polygon polygon, uint32_t plane, uint32_t own, const Leaf
     const LeafFunction::Answer low = below.at(part.below, sides_);
     sides_[own] = 1;
     const LeafFunction::Answer high = above.at(part.above, sides_);
-    if (low.value && high.value) {
-      if (*low.value != *high.value) emit(part.polygon, sheet_of(plane, *high.value));
+    uint32_t asks = low.value ? high.asks : low.asks;
+    const bool is_boundary = low.value && high.value && *low.value != *high.value;
+    OwnerFunction::Answer its{first_owner_};
+    if (is_boundary && has_paints_) {
+      its = owner();
+      asks = its.asks;
+    }
+    if (low.value && high.value && !its.is_asking) {
+      if (is_boundary) {
+        const uint32_t id = its.id == kSharedOwner ? first_owner_ : its.id;
+        const uint32_t painted = has_paints_ ? paints_.painted(plane, id) : plane;
+        emit(part.polygon, {sheet_of(painted, *high.value), id});
+      }
       if (open_.empty()) return;
       part = open_.back();
       open_.pop_back();
@@ -114,7 +125,6 @@ void PieceMaker::split(Polygon polygon, uint32_t plane, uint32_t own, const Leaf
       learn(part, part.asked, 1, below, above);
       continue;
     }
-    const uint32_t asks = low.value ? high.asks : low.asks;
     const uint32_t by = local_.all()[asks];
     bool has_below, has_above;
     look(part.polygon, by, has_below, has_above);
@@ -145,35 +155,55 @@ void PieceMaker::clip_group(Polygon polygon, uint32_t plane, uint32_t own,
       if (polygon.count == 0) return;
     }
   }
-  emit(polygon, sheet_of(plane, (own_side > 0) == is_conjunction));
+  emit(polygon, {sheet_of(plane, (own_side > 0) == is_conjunction), first_owner_});
 }
 
-void PieceMaker::fill(Polygon polygon, uint32_t plane, const LeafFunction& below,
-                      const LeafFunction& above, Pieces& out) {
+OwnerFunction::Answer PieceMaker::owner() const {
+  const OwnerFunction::Answer low = below_owner_.at(sides_);
+  if (low.is_asking) return low;
+  const OwnerFunction::Answer high = above_owner_.at(sides_);
+  if (high.is_asking || low.id == kSharedOwner) return high;
+  return high.id != kSharedOwner && high.id < low.id ? high : low;
+}
+
+/// `below` and `above` are what below_ and above_ are of.
+void PieceMaker::fill(Polygon polygon, uint32_t plane, CellLink below, CellLink above,
+                      Pieces& out) {
+  const bool is_one_cell = below.bits() == above.bits();
+  const LeafFunction& function_below = below_;
+  const LeafFunction& function_above = is_one_cell ? below_ : above_;
   const uint32_t own = local_.add(plane);
+  first_owner_ = function_below.owner(scene_, own);
+  if (!is_one_cell) {
+    const uint32_t other = function_above.owner(scene_, own);
+    if (first_owner_ == kSharedOwner || (other != kSharedOwner && other < first_owner_))
+      first_owner_ = other;
+  }
+  has_paints_ = paints_.are_several(plane);
+  if (has_paints_) {
+    below_owner_.set(below, scene_, half_spaces_, local_, own);
+    above_owner_.set(above, scene_, half_spaces_, local_, own);
+  }
   edges_.clear();
+  owned_.clear();
   pieces_ = 0;
   const bool is_group =
       below.kind() == CellKind::kConjunction || below.kind() == CellKind::kDisjunction;
-  if (&below == &above && is_group)
-    clip_group(polygon, plane, own, below);
+  if (is_one_cell && is_group && !has_paints_)
+    clip_group(polygon, plane, own, function_below);
   else
-    split(polygon, plane, own, below, above);
+    split(polygon, plane, own, function_below, function_above);
   if (pieces_ > 1) cancel();
   if (edges_.empty()) return;
-  uint32_t owner = below.owner(scene_, own);
-  if (&below != &above) {
-    const uint32_t other = above.owner(scene_, own);
-    if (owner == kSharedOwner || (other != kSharedOwner && other < owner)) owner = other;
-  }
-  for (const Sheet sheet : {sheet_of(plane, false), sheet_of(plane, true)}) {
-    const auto is_on = [&](const Pieces::Edge& edge) { return edge.sheet == sheet; };
-    if (std::any_of(edges_.begin(), edges_.end(), is_on)) out.owners.push_back({sheet, owner});
+  for (const Pieces::Owner& owned : owned_) {
+    const auto is_on = [&](const Pieces::Edge& edge) { return edge.sheet == owned.sheet; };
+    if (std::any_of(edges_.begin(), edges_.end(), is_on)) out.owners.push_back(owned);
   }
   release(out);
 }
 
-void PieceMaker::emit(Polygon polygon, Sheet sheet) {
+void PieceMaker::emit(Polygon polygon, Pieces::Owner owned) {
+  const Sheet sheet = owned.sheet;
   const bool is_turned = sheet & 1;
   numbers_.clear();
   for (uint32_t i = 0; i < polygon.count; ++i)
@@ -184,6 +214,7 @@ void PieceMaker::emit(Polygon polygon, Sheet sheet) {
                       is_turned ? from : to});
   }
   ++pieces_;
+  if (std::find(owned_.begin(), owned_.end(), owned) == owned_.end()) owned_.push_back(owned);
 }
 
 /// Leaves out the edges of which there are two that run opposite ways.
@@ -235,7 +266,7 @@ void PieceMaker::within(CellLink leaf, const CellSides& cell, Pieces& out) {
     Polygon polygon = rectangle(plane, axis, cell);
     polygon = clip(polygon, plane, cell.lo[size_t(axis)], 1);
     if (polygon.count > 0) polygon = clip(polygon, plane, cell.hi[size_t(axis)], -1);
-    if (polygon.count > 0) fill(polygon, plane, below_, below_, out);
+    if (polygon.count > 0) fill(polygon, plane, leaf, leaf, out);
   }
 }
 
@@ -248,7 +279,7 @@ void PieceMaker::between(CellLink below, CellLink above, int axis, const CellSid
   points_.clear();
   corners_.clear();
   const uint32_t plane = sides.lo[size_t(axis)];
-  fill(rectangle(plane, axis, sides), plane, below_, above_, out);
+  fill(rectangle(plane, axis, sides), plane, below, above, out);
 }
 
 }  // namespace whittle

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "boundary/leaf_function.h"
+#include "boundary/owner_function.h"
+#include "boundary/paints.h"
 #include "boundary/pieces.h"
 
 namespace whittle {
@@ -45,10 +47,11 @@ class PointNames {
 class PieceMaker {
  public:
   PieceMaker(const Scene& scene, const ExactGeometry& geometry,
-             std::span<const PlacedHalfSpace> half_spaces)
+             std::span<const PlacedHalfSpace> half_spaces, const Paints& paints)
       : scene_(scene),
         geometry_(geometry),
         half_spaces_(half_spaces),
+        paints_(paints),
         local_(geometry.plane_count()) {}
 
   /// The pieces within a leaf's cell. What lies in its sides is left to between().
@@ -81,25 +84,31 @@ class PieceMaker {
   /// The part of a polygon on one side of a plane that was looked at.
   Polygon cut(Polygon polygon, uint32_t plane, uint32_t by, PlaneSide keep);
   Polygon clip(Polygon polygon, uint32_t plane, uint32_t by, PlaneSide keep);
-  void fill(Polygon polygon, uint32_t plane, const LeafFunction& below, const LeafFunction& above,
-            Pieces& out);
+  void fill(Polygon polygon, uint32_t plane, CellLink below, CellLink above, Pieces& out);
+  /// The body that owns a part of the plane at hand, as far as that is known.
+  OwnerFunction::Answer owner() const;
   void split(Polygon polygon, uint32_t plane, uint32_t own, const LeafFunction& below,
              const LeafFunction& above);
   void clip_group(Polygon polygon, uint32_t plane, uint32_t own, const LeafFunction& group);
   void learn(Open& part, uint32_t local_plane, PlaneSide side, const LeafFunction& below,
              const LeafFunction& above);
-  void emit(Polygon polygon, Sheet sheet);
+  void emit(Polygon polygon, Pieces::Owner owned);
   void cancel();
   void release(Pieces& out);
 
   const Scene& scene_;
   const ExactGeometry& geometry_;
   std::span<const PlacedHalfSpace> half_spaces_;
+  const Paints& paints_;
   LocalPlanes local_;
   LeafFunction below_, above_;
   // Of a cell.
   PointNames names_;
   // Of a plane in it.
+  OwnerFunction below_owner_, above_owner_;
+  uint32_t first_owner_ = kSharedOwner;
+  bool has_paints_ = false;  ///< owners of parts of the plane differ in paint
+  std::vector<Pieces::Owner> owned_;
   std::vector<ApproximatePoint> points_;
   std::vector<Corner> corners_;
   std::vector<Pieces::Edge> edges_;  ///< ends are in names_

@@ -18,7 +18,8 @@ struct SolidMesh {
     std::array<uint32_t, 3> corners;  ///< counter-clockwise seen from outside
     uint32_t face;                    ///< into faces
   };
-  /// A plane's side, as far as it is boundary: in one part or several.
+  /// A plane's side, as far as it is boundary, in one part or several; of those of one paint, if
+  /// there were paints (evaluate_solid.h).
   struct Face {
     Vec3 outward;        ///< unit normal
     uint32_t owner = 0;  ///< id of the first body in the file that has a part of it

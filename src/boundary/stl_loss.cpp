@@ -1,10 +1,11 @@
 #include "boundary/stl_loss.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <numeric>
 #include <utility>
+
+#include "boundary/face_loops.h"
 
 namespace whittle {
 namespace {
@@ -23,33 +24,6 @@ class Sets {
  private:
   std::vector<uint32_t> parent_;
 };
-
-/// Half-edge 3 t + i runs from corner i of triangle t to the next.
-uint32_t next(uint32_t edge) {
-  return edge % 3 == 2 ? edge - 2 : edge + 1;
-}
-
-std::vector<uint32_t> twins_of(const SolidMesh& mesh) {
-  struct Edge {
-    uint32_t low, high, number;
-  };
-  std::vector<Edge> edges;
-  for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for (uint32_t i = 0; i < 3; ++i) {
-      const auto [low, high] =
-          std::minmax({mesh.triangles[t].corners[i], mesh.triangles[t].corners[(i + 1) % 3]});
-      edges.push_back({low, high, 3 * t + i});
-    }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return a.low != b.low ? a.low < b.low : a.high < b.high;
-  });
-  std::vector<uint32_t> twins(edges.size());
-  for (size_t i = 0; i + 1 < edges.size(); i += 2) {
-    twins[edges[i].number] = edges[i + 1].number;
-    twins[edges[i + 1].number] = edges[i].number;
-  }
-  return twins;
-}
 
 /// What is left, with its edges sewn together where triangles between them are left out.
 class Rest {
@@ -70,7 +44,7 @@ class Rest {
       parts += edge % 3 == 0 && shells.find(edge / 3) == edge / 3;
       if (is_seen[edge]) continue;
       ++corners;
-      for (uint32_t at = edge; !is_seen[at]; at = next(across(at))) is_seen[at] = true;
+      for (uint32_t at = edge; !is_seen[at]; at = next_half_edge(across(at))) is_seen[at] = true;
     }
     return size_t(parts - (corners - edges / 2 + triangles) / 2);
   }
@@ -93,8 +67,8 @@ class Rest {
     uint32_t other = twins_[edge];
     // Of a triangle that is gone two edges lie on one another.
     while (is_gone_[other / 3]) {
-      const uint32_t ahead = next(other);
-      other = twins_[is_short_[ahead] ? next(ahead) : ahead];
+      const uint32_t ahead = next_half_edge(other);
+      other = twins_[is_short_[ahead] ? next_half_edge(ahead) : ahead];
     }
     return other;
   }

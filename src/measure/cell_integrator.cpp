@@ -81,8 +81,8 @@ void CellIntegrator::add_program(CellLink link, const Box& whole, Integral& out)
         item.sides[i] = side == Side::kInside ? -1 : 1;
       }
     }
-    uint32_t from = 0;
-    if (const std::optional<bool> value = function_.at(item.sides, from).value) {
+    LeafFunction::State state = function_.start();
+    if (const std::optional<bool> value = function_.at(state, item.sides).value) {
       if (*value) add_box(item.box, out);
       continue;
     }
@@ -90,8 +90,8 @@ void CellIntegrator::add_program(CellLink link, const Box& whole, Integral& out)
       uint64_t table = 0;
       for (uint32_t row = 0; row < 1u << open.size(); ++row) {
         for (size_t i = 0; i < open.size(); ++i) item.sides[open[i]] = row >> i & 1 ? -1 : 1;
-        from = 0;
-        table |= uint64_t(function_.at(item.sides, from).value.value_or(false)) << row;
+        state = function_.start();
+        table |= uint64_t(function_.at(state, item.sides).value.value_or(false)) << row;
       }
       add_table({item.box, full_table(table, uint32_t(open.size()))}, out);
       continue;

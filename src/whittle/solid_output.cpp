@@ -1,5 +1,8 @@
 #include "whittle/solid_output.h"
 
+#include <array>
+#include <map>
+
 #include "lower/lower.h"
 #include "model/instances.h"
 
@@ -8,6 +11,20 @@ namespace {
 
 Error refused(const Model& model, const std::string& why) {
   return {ErrorKind::kInput, model.file + ": error: " + why};
+}
+
+/// By id, a number for each colour there is; none if there is but one.
+std::vector<uint32_t> paints_of(const std::vector<Appearance>& looks) {
+  std::map<std::array<float, 4>, uint32_t> numbers;
+  std::vector<uint32_t> paints;
+  for (const Appearance& look : looks) {
+    const Rgba& c = look.color;
+    const auto key =
+        c.is_valid() ? std::array{c.r, c.g, c.b, c.a} : std::array{-1.f, 0.f, 0.f, 0.f};
+    paints.push_back(numbers.emplace(key, uint32_t(numbers.size())).first->second);
+  }
+  if (numbers.size() < 2) paints.clear();
+  return paints;
 }
 
 }  // namespace
@@ -19,19 +36,23 @@ bool has_true_curves(const Model& model) {
   return false;
 }
 
-Result<SolidMesh> solid_of(const Model& model, const Workers& workers, BoundaryStats* stats) {
+Result<SolidMesh> solid_of(const Model& model, const Workers& workers, BoundaryStats* stats,
+                           BoundarySettings settings) {
   if (model.drawing)
     return refused(model, "the model is flat, not a solid; .svg and .dxf hold what is flat");
   const Result<Scene> scene = lower(model, &workers);
   if (!scene) return scene.error();
-  Result<SolidMesh> mesh = evaluate_solid(*scene, workers, stats);
+  const std::vector<Appearance> looks = appearances(model);
+  const std::vector<uint32_t> paints = paints_of(looks);
+  settings.paints = paints;
+  Result<SolidMesh> mesh = evaluate_solid(*scene, workers, stats, settings);
   if (!mesh) {
     return mesh.error().kind == ErrorKind::kInput ? refused(model, mesh.error().message)
                                                   : mesh.error();
   }
-  if (mesh->triangles.empty()) return refused(model, "the solid is empty");
-  const std::vector<Appearance> appearance = appearances(model);
-  for (SolidMesh::Face& face : mesh->faces) face.color = appearance[face.owner].color;
+  if (mesh->triangles.empty() && !settings.stop.stop_requested())
+    return refused(model, "the solid is empty");
+  for (SolidMesh::Face& face : mesh->faces) face.color = looks[face.owner].color;
   return mesh;
 }
 

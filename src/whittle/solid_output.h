@@ -17,10 +17,10 @@ constexpr Curves curves_of_shape(Curves chosen) {
 /// Whether anything in the solid is a true curve.
 bool has_true_curves(const Model& model);
 
-/// The boundary of a model's solid, with its colours. A kInput error, with the file's name, if
-/// there is none: the model is flat, empty, without end, or has true curves.
+/// The boundary of a model's solid, with its colours, which are its paints. A kInput error, with
+/// the file's name, if there is none: the model is flat, empty, without end, or has true curves.
 Result<SolidMesh> solid_of(const Model& model, const Workers& workers,
-                           BoundaryStats* stats = nullptr);
+                           BoundaryStats* stats = nullptr, BoundarySettings settings = {});
 
 /// The loops around a model that is flat; it was read with Drawing's outlines. A kInput error, with
 /// the file's name, if it is not, or is empty.

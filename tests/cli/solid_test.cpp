@@ -153,7 +153,7 @@ TEST_F(SolidFiles, ASummaryTellsOfTheSolid) {
 TEST_F(SolidFiles, ColoursAreIn3mf) {
   write("two.csg",
         "color([1, 0, 0, 1]) cube(size = 1);"
-        "multmatrix([[1, 0, 0, 3], [0, 1, 0, 3], [0, 0, 1, 3], [0, 0, 0, 1]]) cube(size = 2);\n");
+        "multmatrix([[1, 0, 0, 3], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) cube(size = 2);\n");
   ASSERT_EQ(run({"two.csg", "-o", "a.3mf"}).exit_code, 0);
   const std::string file = read("a.3mf");
   const Result<ZipArchive> archive = ZipArchive::open(file);
