@@ -16,9 +16,9 @@ Error refused(const Model& model, const std::string& why) {
 /// By id, a number for each colour there is; none if there is but one.
 std::vector<uint32_t> paints_of(const std::vector<Appearance>& looks) {
   std::map<std::array<float, 4>, uint32_t> numbers;
-  std::vector<uint32_t> paints;
-  for (const Appearance& look : looks) {
-    const Rgba& c = look.color;
+  std::vector<uint32_t> paints{0};  // nobody's
+  for (size_t id = 1; id < looks.size(); ++id) {
+    const Rgba& c = looks[id].color;
     const auto key =
         c.is_valid() ? std::array{c.r, c.g, c.b, c.a} : std::array{-1.f, 0.f, 0.f, 0.f};
     paints.push_back(numbers.emplace(key, uint32_t(numbers.size())).first->second);
