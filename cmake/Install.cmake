@@ -5,6 +5,10 @@ include(CMakePackageConfigHelpers)
 
 if(WHITTLE_PROGRAM)
   install(TARGETS whittle)
+  # File managers draw small pictures by it, and know what .csg is.
+  install(FILES apps/whittle/desktop/whittle.thumbnailer
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/thumbnailers)
+  install(FILES apps/whittle/desktop/whittle.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)
 endif()
 install(FILES docs/whittle.1.md LICENSE TYPE DOC)
 

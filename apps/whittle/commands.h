@@ -15,5 +15,8 @@ int compare_command(Arguments arguments);
 int bench_command(Arguments arguments);
 int model_command(Arguments arguments);
 int devices_command(Arguments arguments);
+int pick_command(Arguments arguments);
+int cast_command(Arguments arguments);
+int measure_command(Arguments arguments);
 
 }  // namespace whittle

@@ -88,6 +88,10 @@ void CommandLine::add_required(const char* name, std::vector<std::string>& words
   app_->add_option(name, words)->required();
 }
 
+void CommandLine::add_words(const char* name, std::vector<std::string>& words) {
+  app_->add_option(name, words);
+}
+
 void CommandLine::add_optional(const char* name,
                                const std::function<void(const std::string&)>& set) {
   app_->add_option_function<std::string>(name, set);

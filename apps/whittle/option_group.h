@@ -43,6 +43,8 @@ class CommandLine {
   /// they are added.
   void add_required(const char* name, std::string& word);
   void add_required(const char* name, std::vector<std::string>& words);
+  /// The same, of which there need be none.
+  void add_words(const char* name, std::vector<std::string>& words);
   void add_optional(const char* name, const std::function<void(const std::string&)>& set);
   /// -v and --version.
   void add_version(const char* version);

@@ -19,6 +19,7 @@
 #include "option_group.h"
 #include "output_template.h"
 #include "progress.h"
+#include "reference.h"
 #include "shape_files.h"
 #include "statistics.h"
 #include "summary.h"
@@ -35,6 +36,9 @@ constexpr CommandHelp kHelp = {
     "FILE -o OUT [options]      makes a picture, or a file to print or cut (the default)\n"
     "       whittle FILE... -o '{name}.png'    draws many files, several at a time\n"
     "       whittle info FILE                  says what is in a file\n"
+    "       whittle pick FILE --at X,Y         says what is seen at a place\n"
+    "       whittle measure FILE --at X,Y ...  measures where one points\n"
+    "       whittle cast FILE X,Y,Z DX,DY,DZ   says what rays meet\n"
     "       whittle cells FILE -o OUT.png      draws the cells over the model\n"
     "       whittle compare A.exr B.exr        compares the facts of two pictures\n"
     "       whittle bench FILE...              measures every stage\n"
@@ -80,6 +84,7 @@ struct RenderArguments {
   SubdivisionArguments subdivision;
   OpenscadArguments openscad;
   SummaryArguments summary;
+  ReferenceArguments reference;
   bool wants_statistics = false;
 };
 
@@ -104,6 +109,7 @@ void add_options(CommandLine& line, RenderArguments& a) {
                     [&](Pass pass) { a.pass = pass; });
   add_openscad_options(line, a.openscad);
   add_summary_options(app, a.summary);
+  add_reference_options(app, a.reference);
   add_view_options(app, a.view, a.loading);
   look.add_choice("--style", style_choices(), "style", "{}",
                   [&](Style style) { a.shading.style = style; });
@@ -121,7 +127,7 @@ void add_options(CommandLine& line, RenderArguments& a) {
 }
 
 Result<std::vector<Output>> choose_outputs(const RenderArguments& a) {
-  if (a.outputs.empty()) {
+  if (a.outputs.empty() && !a.reference.file) {
     return Error{ErrorKind::kUsage,
                  "there is no window yet; give -o FILE, which may end in " + export_endings()};
   }
@@ -148,18 +154,29 @@ Result<std::vector<Output>> choose_outputs(const RenderArguments& a) {
   return outputs;
 }
 
+/// What a PNG shows.
+Picture shown(const RenderArguments& a, const Frame& frame, const Picture& picture) {
+  return a.pass == Pass::kColor ? picture : pass_picture(frame, a.pass, !a.no_background);
+}
+
 Status write_all(const RenderArguments& a, const std::vector<Output>& outputs, const Frame& frame,
                  const Picture& picture) {
   for (const Output& output : outputs) {
-    const bool shows_pass = output.is(FileFormat::kPng) && a.pass != Pass::kColor;
     const Result<std::string> bytes =
         encode(std::get<FileFormat>(output.format), frame,
-               shows_pass ? pass_picture(frame, a.pass, !a.no_background) : picture,
+               output.is(FileFormat::kPng) ? shown(a, frame, picture) : picture,
                a.no_background, output.path, a.renderer.threads);
     if (!bytes) return bytes.error();
     if (Status written = write_output(output.path, *bytes); !written) return written;
   }
   return Done{};
+}
+
+Status compare_if_asked(const RenderArguments& a, const Frame& frame, const Picture& picture) {
+  if (!a.reference.file) return Done{};
+  return compare_with_reference(a.reference, a.file, frame,
+                                a.reference.wants_picture() ? shown(a, frame, picture) : Picture(),
+                                a.no_background);
 }
 
 /// Traces and shades; pictures that no output shows are not made.
@@ -196,6 +213,7 @@ Status check_possible(const RenderArguments& a, const std::vector<Output>& outpu
   if (Status possible = check_shadows(a.shading); !possible) return possible;
   if (Status possible = check_view(a.view); !possible) return possible;
   if (Status possible = check_loading(a.file, a.loading); !possible) return possible;
+  if (Status possible = check_reference(a.reference); !possible) return possible;
   const Animation& animation = a.openscad.animation;
   if (animation.shards > 1 && animation.frames == 0) {
     return Error{ErrorKind::kUsage, "--animate_sharding is for --animate N"};
@@ -203,6 +221,9 @@ Status check_possible(const RenderArguments& a, const std::vector<Output>& outpu
   if (animation.frames > 0 && kind_of_input(a.file) != InputKind::kScad) {
     return Error{ErrorKind::kUsage,
                  fmt::format("--animate: {} has no time; only a .scad file has", a.file)};
+  }
+  if (animation.frames > 0 && a.reference.file) {
+    return Error{ErrorKind::kUsage, "--reference is for one picture, and --animate makes many"};
   }
   std::vector<std::string> paths;
   for (const Output& output : outputs) {
@@ -217,8 +238,12 @@ Status check_possible(const RenderArguments& a, const std::vector<Output>& outpu
   }
   if (a.openscad.dependency_file) paths.push_back(*a.openscad.dependency_file);
   if (a.summary.file) paths.push_back(*a.summary.file);
+  if (a.reference.difference) paths.push_back(*a.reference.difference);
   for (const std::string& path : paths) {
     if (Status possible = check_not_input(path, a.file); !possible) return possible;
+    if (a.reference.file) {
+      if (Status possible = check_not_input(path, *a.reference.file); !possible) return possible;
+    }
     if (Status possible = check_writable(path); !possible) return possible;
   }
   return Done{};
@@ -254,7 +279,7 @@ Status render(RenderArguments& a, const std::vector<Output>& outputs, const Mode
   }
   if (a.summary.is_wanted())
     facts = {view, {.dimensions = model.drawing ? 2 : 3, .box = tight_box(model)}, times.total};
-  return Done{};
+  return compare_if_asked(a, frame, picture);
 }
 
 /// What a run has made so far.
@@ -300,7 +325,7 @@ Status render_still(RenderArguments& a, const std::vector<Output>& outputs, Made
   std::vector<Output> pictures, shapes;
   for (const Output& output : outputs) (output.is_picture() ? pictures : shapes).push_back(output);
   SummaryFacts facts;
-  if (!pictures.empty()) {
+  if (!pictures.empty() || a.reference.file) {
     const Stopwatch watch;
     const Result<Read> read = load(a.file, a.loading);
     if (!read) return read.error();
@@ -354,6 +379,9 @@ std::vector<OutputTemplate> templates_of(const RenderArguments& a,
   for (const Output& output : outputs) templates.push_back({"-o", output.path, true});
   if (a.openscad.dependency_file) templates.push_back({"-d", *a.openscad.dependency_file, false});
   if (a.summary.file) templates.push_back({"--summary-file", *a.summary.file, false});
+  if (a.reference.file) templates.push_back({"--reference", *a.reference.file, false});
+  if (a.reference.difference)
+    templates.push_back({"--reference-difference", *a.reference.difference, false});
   return templates;
 }
 
@@ -367,6 +395,8 @@ Result<int> run_one(RenderArguments& a, std::vector<Output> outputs) {
     if (!moves) fill(output.path);
   if (a.openscad.dependency_file) fill(*a.openscad.dependency_file);
   if (a.summary.file) fill(*a.summary.file);
+  if (a.reference.file) fill(*a.reference.file);
+  if (a.reference.difference) fill(*a.reference.difference);
   if (Status possible = check_possible(a, outputs); !possible) return possible.error();
   Made made;
   Status done = moves ? render_frames(a, outputs, made) : render_still(a, outputs, made);

@@ -13,4 +13,16 @@ Box tight_box(const Model& model) {
   return seen_box(model, scene ? solid_bounds(*scene, 0).box : around.box);
 }
 
+std::vector<SourceLocation> statement_places(const Model& model) {
+  std::vector<SourceLocation> places(size_t(model.statement_count) + 1);
+  for (const Node& node : model.nodes) {
+    // A body stands before its parts, and it is the statement.
+    if (node.kind != NodeKind::kPrimitive && node.kind != NodeKind::kBody) continue;
+    const uint32_t id =
+        node.kind == NodeKind::kBody ? node.payload : model.primitives[node.payload].id;
+    if (places[id] == SourceLocation{}) places[id] = node.where;
+  }
+  return places;
+}
+
 }  // namespace whittle

@@ -23,4 +23,7 @@ constexpr bool has_outlines(Curves in_style) {
   return in_style == Curves::kOpenscad2021;
 }
 
+/// By id, where its statement stands in the text; nowhere for those that are not in the model.
+std::vector<SourceLocation> statement_places(const Model& model);
+
 }  // namespace whittle

@@ -58,14 +58,7 @@ std::uint32_t Solid::statement_count() const {
 
 std::optional<Place> Solid::place(std::uint32_t id) const {
   const State& s = *state_;
-  std::call_once(s.places_once, [&] {
-    s.places.resize(size_t(s.model.statement_count) + 1);
-    for (const Node& node : s.model.nodes) {
-      if (node.kind != NodeKind::kPrimitive) continue;
-      SourceLocation& place = s.places[s.model.primitives[node.payload].id];
-      if (place == SourceLocation{}) place = node.where;
-    }
-  });
+  std::call_once(s.places_once, [&] { s.places = statement_places(s.model); });
   if (id >= s.places.size() || s.places[id] == SourceLocation{}) return std::nullopt;
   return Place{s.places[id].line, s.places[id].column};
 }
