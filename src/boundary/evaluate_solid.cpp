@@ -85,6 +85,15 @@ Status check_solid(const Scene& scene) {
   return Done{};
 }
 
+uint64_t pairs_in(const std::vector<WalkedLeaf>& leaves) {
+  uint64_t pairs = 0;
+  for (const WalkedLeaf& leaf : leaves) {
+    const uint64_t literals = leaf.link.leaf().literals().size();
+    pairs += literals * literals;
+  }
+  return pairs;
+}
+
 /// How much there is of pieces, to go back to.
 class PieceMark {
  public:
@@ -118,7 +127,8 @@ std::vector<Contact> contacts_of(const CellTree& tree, const ExactGrid& grid,
 
 }  // namespace
 
-Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, BoundaryStats* stats) {
+Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, BoundaryStats* stats,
+                                 const BoundaryLimits& limits) {
   if (Status possible = check_solid(scene); !possible) return possible.error();
   if (scene.region.is_empty()) return SolidMesh{};
 
@@ -135,11 +145,15 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
   std::vector<PlacedHalfSpace> half_spaces(scene.half_spaces.size());
   for (size_t i = 0; i < half_spaces.size(); ++i)
     half_spaces[i].plane = planes.add(grid.plane(scene.half_spaces[i], half_spaces[i].inside));
-  const CellTree tree = open_cells(scene, {}, &workers);
+  SubdivideSettings settings;
+  settings.memory = limits.cell_memory;
+  const CellTree tree = open_cells(scene, settings, &workers);
   refine_all(tree, workers);
   const std::vector<WalkedLeaf> leaves = walk_leaves(tree, grid, planes);
   s.leaves = leaves.size();
   lap(s.cells_ms);
+  if (pairs_in(leaves) > limits.pairs)
+    return Error{ErrorKind::kInput, "its surfaces cross one another in too many places"};
 
   const ExactGeometry geometry(planes);
   PieceCollector collector(scene, geometry, half_spaces, workers);
