@@ -64,7 +64,8 @@ FileOptions read_options(const Loading& loading) {
                       .threads = loading.threads ? *loading.threads : 0,
                       .limits = loading.limits,
                       .outlines = loading.outlines,
-                      .solid_box = tight_box},
+                      .solid_box = tight_box,
+                      .closed_mesh = mesh_maker(loading.threads ? *loading.threads : 0)},
           .import_root = loading.import_root,
           .flatten = std::move(flatten)};
 }

@@ -51,7 +51,7 @@ class Inquiry {
 
   const Model& model() const { return read_.model; }
   /// The exit code, if all else went well.
-  int code() const { return code_for(read_, loading_); }
+  int code() const { return code_for(read_, loading_, "answer"); }
 
   /// What is seen at a position of the picture, in pixels; none if nothing is.
   Result<std::optional<Picked>> pick(double x, double y);

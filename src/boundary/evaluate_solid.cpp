@@ -114,6 +114,15 @@ Status check_solid(const Scene& scene) {
   return Done{};
 }
 
+uint64_t pairs_in(const std::vector<WalkedLeaf>& leaves) {
+  uint64_t pairs = 0;
+  for (const WalkedLeaf& leaf : leaves) {
+    const uint64_t literals = leaf.link.leaf().literals().size();
+    pairs += literals * literals;
+  }
+  return pairs;
+}
+
 /// How much there is of pieces, to go back to.
 class PieceMark {
  public:
@@ -166,11 +175,15 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
   for (size_t i = 0; i < half_spaces.size(); ++i)
     half_spaces[i].plane = planes.add(grid.plane(scene.half_spaces[i], half_spaces[i].inside));
   const Paints paints(scene, half_spaces, settings.paints, planes);
-  const CellTree tree = open_cells(scene, {}, &workers);
+  SubdivideSettings subdivide;
+  subdivide.memory = settings.cell_memory;
+  const CellTree tree = open_cells(scene, subdivide, &workers);
   refine_all(tree, workers);
   const std::vector<WalkedLeaf> leaves = walk_leaves(tree, grid, planes);
   s.leaves = leaves.size();
   lap(s.cells_ms);
+  if (pairs_in(leaves) > settings.pairs)
+    return Error{ErrorKind::kInput, "its surfaces cross one another in too many places"};
   constexpr double kWithin = 0.4, kBetween = 0.6, kJoined = 0.7, kFilled = 0.9;
   const auto is_stopped = [&](double share) {
     if (settings.progress) settings.progress(share);

@@ -28,12 +28,15 @@ struct BoundarySettings {
   std::stop_token stop{};
   /// Told, from any thread, the share that is done, 0 to 1.
   std::function<void(double share)> progress{};
+  size_t cell_memory = size_t(1) << 30;  ///< as SubdivideSettings::memory
+  /// Pairs of half-spaces that meet in a leaf, of all leaves together: about what cutting takes.
+  uint64_t pairs = UINT64_MAX;
 };
 
 /// The boundary of the scene's solid; nothing of an empty one. Its corners are right to a few units
 /// of the last place, or where edges no longer than 10^-12 of the region were drawn together, by as
 /// much. The same whatever the number of threads. A kInput error if the solid has no end, or curved
-/// surfaces.
+/// surfaces, or passes a limit.
 Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers,
                                  BoundaryStats* stats = nullptr,
                                  const BoundarySettings& settings = {});

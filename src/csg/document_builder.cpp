@@ -56,8 +56,9 @@ std::optional<Mistake> DocumentBuilder::add(const Statement& statement, std::str
   open.node = static_cast<uint32_t>(nodes.size());
   open.is_root = modifiers.root;
   open.is_background = parent.is_background || modifiers.background;
-  open.needs_corners = parent.needs_corners || statement.type->meaning == Meaning::kHull ||
-                       statement.type->meaning == Meaning::kMinkowski;
+  const Meaning meaning = statement.type->meaning;
+  open.needs_corners = parent.needs_corners || meaning == Meaning::kHull ||
+                       meaning == Meaning::kMinkowski || meaning == Meaning::kProjection;
   if (modifiers.root) {
     if (root_ == kNone) {
       root_ = open.node;

@@ -30,7 +30,8 @@ Result<Read> read_csg(TextSource& source, const std::string& file_name,
                                    .threads = options.threads,
                                    .read_file = options.named_files,
                                    .outlines = options.outlines,
-                                   .solid_box = options.solid_box};
+                                   .solid_box = options.solid_box,
+                                   .closed_mesh = options.closed_mesh};
   StatementCounts counts = std::move(document->counts);
   Result<Model> model = evaluate(std::move(*document), evaluating, warnings);
   if (!model) return model.error();

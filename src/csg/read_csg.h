@@ -45,6 +45,9 @@ struct ReadOptions {
   /// The exact box of a solid (subdivide/solid_bounds.h), for resize(); without it bounds() stand
   /// for it.
   std::function<Box(const Model&)> solid_box{};
+  /// The boundary of a solid (boundary/closed_mesh.h), for hulls and sums of what is cut and for
+  /// projections; without it there are none of these.
+  std::function<Result<TriangleMesh>(const Model&)> closed_mesh{};
 };
 
 /// What was read.

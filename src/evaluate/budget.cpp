@@ -7,6 +7,7 @@
 namespace whittle {
 
 std::string Budget::message() const {
+  if (!why_.empty()) return why_;
   if (is_tangled()) return "flat shapes up to this one have too many lines across one another";
   if (facets_ > most_) {
     return fmt::format(
@@ -15,8 +16,9 @@ std::string Budget::message() const {
         facets_, most_, limit_hint("facets"));
   }
   return fmt::format(
-      "flat shapes and hulls up to this one are computed from {} corners, more than the limit of "
-      "{}{}",
+      "flat shapes, hulls and sums up to this one are computed from {} corners, more than the "
+      "limit "
+      "of {}{}",
       work_, kWork * most_, limit_hint("facets"));
 }
 

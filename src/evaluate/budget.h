@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "flat/sweep_work.h"
 #include "model/model.h"
@@ -37,7 +38,12 @@ class Budget {
     return !is_tangled();
   }
 
-  bool is_spent() const { return facets_ > most_ || work_ / kWork > most_ || is_tangled(); }
+  /// Spends all of it: something takes too much that was not counted here, for a reason in words.
+  void refuse(std::string why) { why_ = std::move(why); }
+
+  bool is_spent() const {
+    return facets_ > most_ || work_ / kWork > most_ || is_tangled() || !why_.empty();
+  }
 
   /// Why it is spent, in words.
   std::string message() const;
@@ -48,6 +54,7 @@ class Budget {
   static uint64_t saturated(uint64_t a, uint64_t b) { return a + b < a ? UINT64_MAX : a + b; }
 
   uint64_t most_, facets_ = 0, work_ = 0, sweep_ = 0;
+  std::string why_;
 };
 
 }  // namespace whittle

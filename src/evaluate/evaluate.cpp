@@ -25,12 +25,14 @@ Result<Model> evaluate(Document document, const EvaluateOptions& options, Warnin
   if (is_model) {
     model = std::move(document.model);
   } else {
-    model = Evaluator(document, options, budget, warnings).run(where);
+    Projections projections;
+    model = Evaluator(document, options, budget, warnings, projections).run(where);
     if (budget.is_spent()) return too_much();
     if (model.drawing && options.outlines) {
       Warnings said_before(document.model.file);
       budget = Budget(options.most_facets);  // The same shapes once more are no more faces.
-      model.drawing->outlines = Evaluator(document, options, budget, said_before).outlines(where);
+      model.drawing->outlines =
+          Evaluator(document, options, budget, said_before, projections).outlines(where);
       if (budget.is_spent()) return too_much();
     }
   }

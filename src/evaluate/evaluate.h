@@ -11,6 +11,7 @@
 #include "model/document.h"
 #include "model/model.h"
 #include "model/warnings.h"
+#include "shape/triangle_mesh.h"
 #include "whittle/options.h"
 
 namespace whittle {
@@ -29,6 +30,10 @@ struct EvaluateOptions {
   bool outlines = false;
   /// The exact box of a solid, for resize(); without it the bounds of its tree stand for it.
   std::function<Box(const Model&)> solid_box;
+  /// The boundary of a solid, for hulls and sums of what is cut, and for projections; what is
+  /// curved in it has facets. Errors say in words, without a place, why there is none. Without this
+  /// function there is never one.
+  std::function<Result<TriangleMesh>(const Model&)> closed_mesh;
 };
 
 /// The solid that a document describes, as a model without leaves and operations. Every extrusion,

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "boundary/closed_mesh.h"
 #include "csg/read_csg.h"
 #include "lower/evaluate.h"
 #include "lower/lower.h"
@@ -14,7 +15,14 @@
 
 namespace whittle {
 
-inline Read evaluated(std::string_view text, const ReadOptions& options = {}) {
+/// To read with, so that what must be evaluated is.
+inline ReadOptions with_boundaries() {
+  ReadOptions options;
+  options.closed_mesh = [](const Model& model) { return closed_mesh(model, Workers(1)); };
+  return options;
+}
+
+inline Read evaluated(std::string_view text, const ReadOptions& options = with_boundaries()) {
   Result<Read> read = read_csg(text, "t.csg", options);
   if (!read) {
     ADD_FAILURE() << read.error().message << "\nin: " << text;
@@ -71,7 +79,8 @@ inline int differing_points(const Model& a, const Model& b, Box box, int count =
 }
 
 /// The two texts must come to the same solid, which is not empty.
-inline void expect_same(std::string_view a, std::string_view b, const ReadOptions& options = {}) {
+inline void expect_same(std::string_view a, std::string_view b,
+                        const ReadOptions& options = with_boundaries()) {
   const Read one = evaluated(a, options), other = evaluated(b, options);
   const Box box = bounds(other.model).box;
   ASSERT_FALSE(box.is_empty()) << b;
@@ -80,7 +89,7 @@ inline void expect_same(std::string_view a, std::string_view b, const ReadOption
       << b;
 }
 
-inline void expect_empty(std::string_view text, const ReadOptions& options = {}) {
+inline void expect_empty(std::string_view text, const ReadOptions& options = with_boundaries()) {
   const Read read = evaluated(text, options);
   const Box box = bounds(read.model).box;
   EXPECT_TRUE(box.is_empty()) << text;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -14,7 +15,7 @@
 namespace whittle {
 
 Evaluator::Evaluator(Document& document, const EvaluateOptions& options, Budget& budget,
-                     Warnings& warnings)
+                     Warnings& warnings, Projections& projections)
     : document_(document),
       options_(options),
       budget_(budget),
@@ -23,7 +24,7 @@ Evaluator::Evaluator(Document& document, const EvaluateOptions& options, Budget&
       leaves_(options.curves, budget, files_, warnings),
       dimensions_(dimensions(document)),
       warned_(document.model.nodes.size()),
-      failed_(document.model.nodes.size()) {
+      projections_(projections) {
   out_.file = document.model.file;
   out_.statement_count = document.model.statement_count;
   out_.view = document.model.view;
@@ -93,8 +94,7 @@ void Evaluator::close_root(const Frame& root) {
 uint32_t Evaluator::enter(uint32_t i) {
   const Node& node = document_.model.nodes[i];
   if (node.background) return node.end;
-  Frame& parent = open_.back();
-  if (++parent.operands > 1 && parent.only_first) return node.end;
+  ++open_.back().operands;
   if (!admit_dimension(i)) {
     leave_out(i);
     return node.end;
@@ -130,7 +130,7 @@ void Evaluator::leave_out(uint32_t i) {
   } else {
     Frame nothing;
     nothing.first_polygons = polygons_.size();
-    nothing.first_corners = corners_.size();
+    nothing.first_parts = parts_.size();
     finish_child(nothing);
   }
 }
@@ -141,7 +141,7 @@ uint32_t Evaluator::enter_leaf(uint32_t i) {
   Frame own;
   own.node = i;
   own.first_polygons = polygons_.size();
-  own.first_corners = corners_.size();
+  own.first_parts = parts_.size();
   if (node.kind == NodeKind::kPrimitive) {
     Primitive& primitive = document_.model.primitives[node.payload];
     if (parent.mode == Mode::kSolid) {
@@ -149,9 +149,9 @@ uint32_t Evaluator::enter_leaf(uint32_t i) {
       return node.end;
     }
     if (std::holds_alternative<Halfspace>(primitive.shape)) {
-      warn_once(i, "a half-space has no corners, so no hull; it is left out");
+      warn_once(i, "a half-space has no corners, so no hull and no section; it is left out");
     }
-    give(own, corners_of(primitive.shape, parent.wants_convex, budget_));
+    give(own, part_of(primitive.shape, parent.wants_surface, budget_));
   } else {
     const Leaf& leaf = document_.leaves[node.payload];
     const uint32_t id = document_.leaf_ids[node.payload];
@@ -162,7 +162,7 @@ uint32_t Evaluator::enter_leaf(uint32_t i) {
         add_shape(std::move(mesh), id, node);
         return node.end;
       }
-      give(own, corners_of(mesh, parent.wants_convex, budget_));
+      give(own, part_of(mesh, parent.wants_surface, budget_));
     } else if (parent.mode == Mode::kFlat) {
       give(own, leaves_.polygons(leaf, node.where));
     } else if (const auto* const square = std::get_if<Square>(&leaf)) {
@@ -181,7 +181,7 @@ uint32_t Evaluator::enter_leaf(uint32_t i) {
     } else if (const auto* const circle = std::get_if<Circle>(&leaf)) {
       Cylinder cylinder{.h = parent.height, .r1 = circle->r, .r2 = circle->r};
       if (circle->r > 0) {
-        cylinder.facets = choose_facets(circle->r, circle->fragments, options_.curves);
+        cylinder.facets = facets_of(circle->r, circle->fragments);
         if (cylinder.facets > 0) budget_.spend(uint64_t(cylinder.facets) + 2);
       }
       add_shape(cylinder, parent.body > 0 ? parent.body : id, node);
@@ -201,10 +201,11 @@ uint32_t Evaluator::enter_group(uint32_t i) {
   Frame frame = open_.back();
   frame.node = i;
   frame.operands = 0;
-  frame.warned = frame.only_first = false;
+  frame.warned = frame.has_model = false;
   frame.first_polygons = polygons_.size();
-  frame.first_corners = corners_.size();
+  frame.first_parts = parts_.size();
   frame.separate = node.kind == NodeKind::kDifference || node.kind == NodeKind::kIntersection;
+  if (frame.mode == Mode::kParts && frame.separate) open_model(i, frame);
   const bool has_nodes = frame.mode == Mode::kSolid || frame.mode == Mode::kEmbedded;
   if (node.kind == NodeKind::kTransform && !has_nodes && !map_of(i, frame)) {
     leave_out(i);
@@ -243,6 +244,13 @@ bool Evaluator::map_of(uint32_t i, Frame& frame) {
   return true;
 }
 
+/// The facets of a curve in the innermost open node; 0 for a true curve.
+int Evaluator::facets_of(double r, FragmentSettings settings) const {
+  const int facets = choose_facets(r, settings, options_.curves);
+  if (facets > 0 || !open_.back().is_facetted) return facets;
+  return std::min(fragment_count(r, settings, options_.curves), kMaxFacets);
+}
+
 /// Ends the innermost node.
 void Evaluator::close() {
   const Frame frame = open_.back();
@@ -257,7 +265,7 @@ void Evaluator::close() {
     return;
   }
   if (frame.out != kNone) out_.nodes[frame.out].end = uint32_t(out_.nodes.size());
-  if (frame.mode == Mode::kFlat && frame.separate) {
+  if (has_polygons(frame) && frame.separate) {
     std::vector<Polygons> operands = take_polygons(frame);
     if (operands.size() > 1) {
       budget_.work(corner_count(operands));
@@ -269,18 +277,10 @@ void Evaluator::close() {
     } else if (!operands.empty()) {
       polygons_.push_back(std::move(operands.front()));
     }
-  } else if (frame.mode == Mode::kCorners && frame.separate && frame.operands > 1) {
-    // A sum says by itself that it is not known.
-    if (!frame.wants_convex) {
-      refuse(frame.node,
-             "hulls of what is cut are not supported yet: of this only the first operand counts",
-             "hulls of what is cut are not supported yet");
-    }
-    std::erase_if(corners_, [&, i = size_t{0}](CornerSet& set) mutable {
-      const bool is_own = i++ >= frame.first_corners;
-      if (is_own) set.is_convex = false;
-      return is_own && set.operand > 0;
-    });
+  } else if (frame.has_model) {
+    const TriangleMesh boundary = boundary_of(close_model(), frame);
+    for (SolidPart& part : parts_of(boundary, open_.back().wants_surface))
+      give(frame, std::move(part));
   }
   finish_child(frame);
 }
@@ -289,12 +289,12 @@ void Evaluator::close() {
 void Evaluator::finish_child(const Frame& child) {
   const Frame& parent = open_.back();
   if (!parent.separate) return;
-  if (parent.mode == Mode::kFlat) {
+  if (has_polygons(parent)) {
     Polygons operand = take_united(child);
     polygons_.push_back(std::move(operand));
-  } else if (parent.mode == Mode::kCorners) {
-    for (size_t k = child.first_corners; k < corners_.size(); ++k) {
-      corners_[k].operand = parent.operands - 1;
+  } else if (parent.mode == Mode::kParts) {
+    for (size_t k = child.first_parts; k < parts_.size(); ++k) {
+      parts_[k].operand = parent.operands - 1;
     }
   }
 }

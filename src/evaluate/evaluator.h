@@ -2,29 +2,36 @@
 //
 // One pass over the tree, with the open nodes on a stack. A node becomes one of four things, as the
 // nodes around it demand: nodes of the model; nodes of the model whose flat shapes are extruded as
-// they are; polygons; or corners. Polygons and corners wait on stacks of their own for the
-// operation that takes them; unions leave them lying there, so that they cost nothing.
+// they are; polygons; parts of solids; or polygons where solids are cut by z = 0. Polygons and
+// parts wait on stacks of their own for the operation that takes them; unions leave them lying
+// there, so that they cost nothing. What is cut, where parts are wanted, and what is projected
+// becomes a model of its own, of which the boundary is asked for when it is closed.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "evaluate/budget.h"
-#include "evaluate/corner_sets.h"
 #include "evaluate/dimensions.h"
 #include "evaluate/evaluate.h"
 #include "evaluate/files.h"
 #include "evaluate/flat_values.h"
+#include "evaluate/solid_parts.h"
 #include "flat/polygons.h"
 #include "model/document.h"
 
 namespace whittle {
 
+/// What projections have come to, by node: a second walk finds them here, and their solids gone.
+using Projections = std::unordered_map<uint32_t, Polygons>;
+
 class Evaluator {
  public:
   /// All of them must outlive it.
-  Evaluator(Document& document, const EvaluateOptions& options, Budget& budget, Warnings& warnings);
+  Evaluator(Document& document, const EvaluateOptions& options, Budget& budget, Warnings& warnings,
+            Projections& projections);
 
   /// The model; if the budget is spent, of no use, and `where` is where that was.
   Model run(SourceLocation& where);
@@ -36,25 +43,30 @@ class Evaluator {
  private:
   static constexpr uint32_t kNone = UINT32_MAX;
 
-  enum class Mode : uint8_t { kSolid, kEmbedded, kFlat, kCorners };
+  /// kFlat and kSection leave polygons, the latter where solids are cut by z = 0.
+  enum class Mode : uint8_t { kSolid, kEmbedded, kFlat, kParts, kSection };
 
   /// A node whose children are being evaluated.
   struct Frame {
     uint32_t node = 0;
-    Mode mode = Mode::kSolid;   ///< what the children become
-    bool separate = false;      ///< polygons, corners: each child is an operand of its own
-    bool only_first = false;    ///< only the first operand counts
-    bool wants_convex = false;  ///< corners: of parts that are convex
-    bool warned = false;        ///< that a child's dimension is another
-    uint32_t operands = 0;      ///< children so far
-    uint32_t out = kNone;       ///< its node in the model
-    uint32_t body = 0;          ///< embedded: the id of all parts; 0: each its own
-    size_t first_polygons = 0;  ///< where its own begin on the stack
-    size_t first_corners = 0;   ///< likewise
-    double height = 1;          ///< embedded: of the extrusion, from z = 0
-    Affine map;  ///< polygons, corners: into the space of the operation that takes them
+    Mode mode = Mode::kSolid;    ///< what the children become
+    bool separate = false;       ///< polygons, parts: each child is an operand of its own
+    bool wants_surface = false;  ///< parts: with the surface of those that are not convex
+    bool is_facetted = false;    ///< curves in it have OpenSCAD's facets, whatever was chosen
+    bool has_model = false;      ///< what it holds is a model of its own
+    bool warned = false;         ///< that a child's dimension is another
+    uint32_t operands = 0;       ///< children so far
+    uint32_t out = kNone;        ///< its node in the model
+    uint32_t body = 0;           ///< embedded: the id of all parts; 0: each its own
+    size_t first_polygons = 0;   ///< where its own begin on the stack
+    size_t first_parts = 0;      ///< likewise
+    double height = 1;           ///< embedded: of the extrusion, from z = 0
+    Affine map;  ///< polygons, parts: into the space of the operation that takes them
   };
 
+  static bool has_polygons(const Frame& frame) {
+    return frame.mode == Mode::kFlat || frame.mode == Mode::kSection;
+  }
   const Node& node_of(const Frame& frame) const { return document_.model.nodes[frame.node]; }
   template <class T>
   const T* operation(const Frame& frame) const {
@@ -73,6 +85,7 @@ class Evaluator {
   uint32_t enter_leaf(uint32_t i);
   uint32_t enter_group(uint32_t i);
   bool map_of(uint32_t i, Frame& frame);
+  int facets_of(double r, FragmentSettings settings) const;
   void close();
   void finish_child(const Frame& child);
   uint32_t begin_node(NodeKind kind, uint32_t payload, const Node& from);
@@ -90,14 +103,21 @@ class Evaluator {
   void close_rotate_extrude(const Frame& frame, const RotateExtrude& how);
   void close_hull(const Frame& frame);
   void close_minkowski(const Frame& frame);
+  void close_projection(const Frame& frame, const Projection& how);
   void close_resize(const Frame& frame, const Resize& how);
   void add_revolution(const Frame& frame, const RotateExtrude& how, const Polygons& profile);
   Polygons take_united(const Frame& frame);
   std::vector<Polygons> take_polygons(const Frame& frame);
-  std::vector<CornerSet> take_corners(const Frame& frame);
+  std::vector<SolidPart> take_parts(const Frame& frame);
   void give(const Frame& frame, Polygons polygons);
   void give(const Frame& frame, Shape shape);
-  void give(const Frame& frame, CornerSet set);
+  void give(const Frame& frame, SolidPart part);
+
+  // own_models.cpp: what must be evaluated before others can use it.
+  void open_model(uint32_t i, Frame& frame);
+  Model close_model();
+  TriangleMesh boundary_of(const Model& model, const Frame& frame);
+  Polygons shadow_of(const Model& model, const Frame& frame);
 
   Document& document_;
   const EvaluateOptions& options_;
@@ -107,11 +127,12 @@ class Evaluator {
   FlatLeaves leaves_;
   std::vector<Dimension> dimensions_;
   std::vector<bool> warned_;  ///< nodes that have had their warning
-  std::vector<bool> failed_;  ///< sums that are not known, so that their first operand is shown
   std::vector<Frame> open_;
   std::vector<Polygons> polygons_;
-  std::vector<CornerSet> corners_;
-  Model out_;
+  std::vector<SolidPart> parts_;
+  Model out_;                 ///< the one at hand
+  std::vector<Model> outer_;  ///< those around it
+  Projections& projections_;
   uint32_t next_ = 1;  ///< the node that comes next
 };
 

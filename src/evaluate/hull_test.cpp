@@ -92,49 +92,67 @@ TEST(Hull, ThatIsFlatIsEmptyAndAnOperand) {
   }
 }
 
-TEST(Hull, OfWhatIsCutTakesTheFirstOperand) {
-  const Read read = evaluated(
-      "hull() { cube(1); difference() { translate([4, 0, 0]) cube(1); cube(9); "
-      "} }");
-  EXPECT_EQ(bounds(read.model).box, (Box{{0, 0, 0}, {5, 1, 1}}));
-  ASSERT_EQ(read.warnings.size(), 1u);
+TEST(Hull, OfWhatIsCutIsThatOfWhatIsLeft) {
+  expect_same(
+      "hull() { cube(1); difference() { cube([9, 1, 1]); translate([4, -1, -1]) cube(9); } }",
+      "cube([4, 1, 1]);");
+  expect_same("hull() intersection() { cube(4); translate([1, 2, 3]) cube(9); }",
+              "translate([1, 2, 3]) cube([3, 2, 1]);");
+  expect_same("hull() { cube(1); difference() { translate([4, 0, 0]) cube(1); cube(9); } }",
+              "cube(1);");
+  expect_empty("hull() difference() { cube(1); cube(2); }");
+  // Moved and mirrored, by what is around it and by what is in it.
+  expect_same(
+      "hull() translate([10, 0, 0]) mirror([1, 0, 0]) difference() { translate([1, 0, 0]) cube(4);"
+      " cube([2, 9, 9]); }",
+      "translate([5, 0, 0]) cube([3, 4, 4]);");
+  // What is hulled in there comes first, and what is not cut is not asked for.
+  size_t asked = 0;
+  ReadOptions options = with_boundaries();
+  options.closed_mesh = [&, make = options.closed_mesh](const Model& model) {
+    ++asked;
+    return make(model);
+  };
+  expect_same(
+      "hull() { difference() { hull() { cube(1); difference() { cube([9, 1, 1]); translate([7, -1,"
+      " -1]) cube(9); } } translate([5, -1, -1]) cube(9); } cube(1); union() { cube(1); } }",
+      "cube([5, 1, 1]);", options);
+  EXPECT_EQ(asked, 2u);
+}
+
+TEST(Hull, OfWhatHasNoEndIsLeftOut) {
+  const Read read =
+      evaluated("hull() { cube(1); difference() { halfspace([0, 0, 1], 0); cube(9); } }");
+  EXPECT_EQ(bounds(read.model).box, (Box{{0, 0, 0}, {1, 1, 1}}));
   ASSERT_TRUE(read.unsupported);
   EXPECT_EQ(read.unsupported->where, (SourceLocation{1, 19}));
-  // Alone it is no difference.
-  EXPECT_TRUE(evaluated("hull() difference() cube(1);").warnings.empty());
+  // What is cut out of it has one.
+  expect_same("hull() intersection() { halfspace([0, 0, 1], 1); cube(9); }", "cube([9, 9, 1]);");
 }
 
-TEST(Minkowski, OfConvexSolidsIsTheirSum) {
-  expect_same("minkowski() { cube(3); translate([1, 0, 0]) cube([1, 2, 3]); }",
-              "translate([1, 0, 0]) cube([4, 5, 6]);");
-  expect_same("minkowski() { cube(3); cube(1); cube(2); }", "cube(6);");
-  expect_same("minkowski() cube(3);", "cube(3);");
-  expect_same("minkowski() { cube(3); group(); cube(0); }", "cube(3);");
-  expect_empty("minkowski();");
-  EXPECT_EQ(evaluated("cube(); minkowski() { cube(3); cube(1); }").model.primitives[1].id, 2u);
+TEST(Hull, WithoutBoundariesSaysSo) {
+  ReadOptions options;
+  const Result<Read> read =
+      read_csg("hull() { cube(1); difference() { cube(4); cube(2); } }", "t.csg", options);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(bounds(read->model).box, (Box{{0, 0, 0}, {1, 1, 1}}));
+  ASSERT_TRUE(read->unsupported);
 }
 
-TEST(Minkowski, OfUnionsIsTheUnionOfSums) {
-  const std::string l = "{ cube([6, 1, 1]); cube([1, 6, 1]); }";
-  expect_same("minkowski() { union() " + l + " cube(1); }", "cube([7, 2, 2]); cube([2, 7, 2]);");
-  expect_same(
-      "minkowski() { linear_extrude(1) polygon([[0,0],[6,0],[6,1],[1,1],[1,6],[0,6]]); "
-      "cube(1); }",
-      "cube([7, 2, 2]); cube([2, 7, 2]);");
-  const Model model = evaluated("cube(); minkowski() { union() " + l + " cube(1); }").model;
-  EXPECT_EQ(lone_primitive(evaluated("minkowski() { union() " + l + " cube(1); }").model), 1u);
-  for (size_t i = 1; i < model.primitives.size(); ++i) EXPECT_EQ(model.primitives[i].id, 2u);
-}
-
-TEST(Minkowski, OfOthersShowsTheFirstOperandAlone) {
-  const Read read = evaluated(
-      "minkowski() { difference() { cube(9); translate([1, 1, 1]) cube(9); } translate([50, 0, 0]) "
-      "cube(1); }");
-  const Box box = bounds(read.model).box;
-  EXPECT_EQ(box, (Box{{0, 0, 0}, {9, 9, 9}}));
-  EXPECT_FALSE(Inside(read.model)({5, 5, 5}));
-  ASSERT_TRUE(read.unsupported);
-  EXPECT_LE(read.warnings.size(), 2u);
+TEST(Hull, HasFacetsForTrueCurvesInWhatIsCut) {
+  for (const Curves curves : {Curves::kAuto, Curves::kFacets, Curves::kSmooth}) {
+    ReadOptions options = with_boundaries();
+    options.curves = curves;
+    const Model model =
+        evaluated(
+            "hull() difference() { union() { sphere(5); linear_extrude(9) circle(3); "
+            "rotate_extrude() translate([4, 0]) circle(2); } translate([0, 0, -9]) cube([9, 9, "
+            "9]); }",
+            options)
+            .model;
+    ASSERT_EQ(model.primitives.size(), 1u);
+    EXPECT_TRUE(std::holds_alternative<Polyhedron>(model.primitives[0].shape));
+  }
 }
 
 TEST(Resize, IsByTheBoxAndAboutTheOrigin) {

@@ -153,19 +153,27 @@ TEST(EvaluationLimits, TanglesAreCountedTogether) {
   EXPECT_TRUE(budget.is_spent());
 }
 
+constexpr int kDeep = 5000;
+
 TEST(EvaluationLimits, DepthTakesNoStack) {
-  constexpr int kDeep = 5000;
-  const auto nested = [&](const std::string& outer, const std::string& inner) {
+  const auto nested = [&](const std::string& outer, const std::string& inner, int deep = kDeep) {
     std::string text;
-    for (int i = 0; i < kDeep; ++i) text += outer;
+    for (int i = 0; i < deep; ++i) text += outer;
     return text + inner;
   };
   EXPECT_FALSE(bounds(evaluated(nested("hull() ", "cube(1);")).model).box.is_empty());
   EXPECT_FALSE(bounds(evaluated(nested("minkowski() ", "cube(1);")).model).box.is_empty());
   evaluated("linear_extrude(1) " + nested("offset(delta = 0.001) ", "square(1);"));
   evaluated(nested("linear_extrude(1) ", "square(1);"));
-  evaluated(nested("minkowski() { difference() { cube(2); cube(1); } ", "cube(1);") +
-            std::string(kDeep, '}'));
+  evaluated(nested("minkowski() { cube(2); ", "cube(1);") + std::string(kDeep, '}'));
+  const std::string cuts = nested("hull() { difference() { ", "cube(9);", 1000) +
+                           nested("translate([1, 1, 1]) cube(9); } } ", "", 1000);
+  const Model cut = evaluated(cuts).model;
+  EXPECT_NEAR(bounds(cut).box.hi.x, 9, 1e-6);
+  const std::string sums = nested("minkowski() { difference() { cube(2); cube(1); } ", "cube(1);") +
+                           std::string(kDeep, '}');
+  EXPECT_NE(evaluation_error(sums, with_boundaries()).find(limit_hint("facets")),
+            std::string::npos);
   EXPECT_NE(
       evaluation_error(nested("resize([2, 0, 0]) ", "cube(1);"), {}).find(limit_hint("facets")),
       std::string::npos);

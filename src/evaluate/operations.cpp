@@ -10,6 +10,8 @@
 #include "evaluate/convex_hull.h"
 #include "evaluate/evaluator.h"
 #include "evaluate/extrusions.h"
+#include "evaluate/minkowski.h"
+#include "evaluate/projection.h"
 #include "evaluate/resize.h"
 #include "evaluate/revolution.h"
 #include "flat/extrude.h"
@@ -21,8 +23,14 @@ uint32_t Evaluator::enter_operation(uint32_t i) {
   Frame frame;
   frame.node = i;
   frame.mode = open_.back().mode;
+  frame.is_facetted = open_.back().is_facetted;
   frame.first_polygons = polygons_.size();
-  frame.first_corners = corners_.size();
+  frame.first_parts = parts_.size();
+  if (const auto known = projections_.find(i); known != projections_.end()) {
+    give(frame, known->second);
+    finish_child(frame);
+    return document_.model.nodes[i].end;
+  }
   if (!open_operation(i, frame)) {
     leave_out(i);
     return document_.model.nodes[i].end;
@@ -36,10 +44,15 @@ bool Evaluator::open_operation(uint32_t i, Frame& frame) {
   const Node& node = document_.model.nodes[i];
   const Operation& operation = document_.operations[node.payload];
   if (dimensions_[i] == Dimension::kNone) return false;
-  if (std::holds_alternative<Projection>(operation)) {
-    refuse(i, "projections are not supported yet; nothing is shown for it",
-           "projections are not supported yet");
-    return false;
+  if (const auto* const how = std::get_if<Projection>(&operation)) {
+    if (!how->cut) {
+      open_model(i, frame);
+    } else {
+      // Sections of a Boolean are the Boolean of the sections.
+      frame.mode = Mode::kSection;
+      frame.is_facetted = frame.wants_surface = true;
+    }
+    return true;
   }
   if (std::holds_alternative<Roof>(operation)) {
     refuse(i, "roofs are not supported; nothing is shown for it", "roofs are not supported");
@@ -54,21 +67,19 @@ bool Evaluator::open_operation(uint32_t i, Frame& frame) {
     return true;
   }
   if (std::holds_alternative<Minkowski>(operation)) {
-    if (failed_[i]) {
-      frame.only_first = true;
-      frame.out = begin_node(NodeKind::kUnion, 0, node);
-      return true;
-    }
-    frame.mode = Mode::kCorners;
-    frame.separate = frame.wants_convex = true;
+    // The hull of a sum is the sum of hulls.
+    frame.wants_surface = frame.mode != Mode::kParts || open_.back().wants_surface;
+    frame.mode = Mode::kParts;
+    frame.separate = true;
   } else if (std::holds_alternative<Hull>(operation)) {
-    frame.mode = Mode::kCorners;
+    frame.mode = Mode::kParts;
   } else if (frame.mode == Mode::kSolid) {
     // A resize; its map follows when the box of what it holds is known.
     frame.out = begin_node(NodeKind::kTransform, uint32_t(out_.transforms.size()), node);
     out_.transforms.emplace_back();
   } else {
-    frame.wants_convex = open_.back().wants_convex;
+    frame.wants_surface = open_.back().wants_surface;
+    if (frame.mode == Mode::kSection) open_model(i, frame);
   }
   return true;
 }
@@ -104,7 +115,8 @@ void Evaluator::close_operation(const Frame& frame) {
     close_hull(frame);
   } else if (operation<Minkowski>(frame)) {
     close_minkowski(frame);
-    if (next_ == frame.node) return;  // Once more, another way.
+  } else if (const auto* const projected = operation<Projection>(frame)) {
+    close_projection(frame, *projected);
   } else if (const auto* const size = operation<Resize>(frame)) {
     close_resize(frame, *size);
   }
@@ -119,15 +131,15 @@ void Evaluator::close_linear_extrude(const Frame& frame, const LinearExtrude& ho
     return;
   }
   const Polygons polygons = take_united(frame);
-  if (open_.back().mode != Mode::kCorners || !is_straight(how)) {
+  if (open_.back().mode != Mode::kParts || !is_straight(how)) {
     LinearExtrude sliced = how;
     // That version divides no edges.
     if (options_.curves == Curves::kOpenscad2021) sliced.segments = 0;
     give(frame, sliced_extrusion(polygons, sliced, budget_));
     return;
   }
-  for (CornerSet& set : extruded_corners(polygons, how, open_.back().wants_convex, budget_)) {
-    give(frame, std::move(set));
+  for (SolidPart& part : extruded_parts(polygons, how, open_.back().wants_surface, budget_)) {
+    give(frame, std::move(part));
   }
 }
 
@@ -151,7 +163,7 @@ void Evaluator::close_rotate_extrude(const Frame& frame, const RotateExtrude& ho
   }
   const double r = most - least;
   const bool is_solid = open_.back().mode == Mode::kSolid;
-  const int facets = is_solid ? choose_facets(r, how.fragments, options_.curves) : 0;
+  const int facets = is_solid ? facets_of(r, how.fragments) : 0;
   if (is_solid && facets == 0 && !profile.is_empty() && how.angle_degrees != 0) {
     add_revolution(frame, how, profile);
     return;
@@ -226,8 +238,8 @@ void Evaluator::close_hull(const Frame& frame) {
     return;
   }
   std::vector<Vec3> points;
-  for (const CornerSet& set : take_corners(frame)) {
-    points.insert(points.end(), set.points.begin(), set.points.end());
+  for (const SolidPart& part : take_parts(frame)) {
+    points.insert(points.end(), part.points.begin(), part.points.end());
   }
   std::optional<Polyhedron> hull;
   if (budget_.work(points.size())) hull = solid_hull(points);
@@ -236,10 +248,6 @@ void Evaluator::close_hull(const Frame& frame) {
 }
 
 void Evaluator::close_minkowski(const Frame& frame) {
-  if (frame.only_first) {
-    out_.nodes[frame.out].end = uint32_t(out_.nodes.size());
-    return;
-  }
   if (frame.mode == Mode::kFlat) {
     std::vector<Polygons> operands = take_polygons(frame);
     std::erase_if(operands, [](const Polygons& operand) { return operand.is_empty(); });
@@ -252,41 +260,27 @@ void Evaluator::close_minkowski(const Frame& frame) {
     give(frame, minkowski_sum(operands));
     return;
   }
-  std::vector<CornerSet> sets = take_corners(frame);
-  const bool is_nested = open_.back().mode == Mode::kCorners;
-  std::optional<std::vector<Polyhedron>> parts =
-      minkowski_parts(is_nested ? sets : std::move(sets), budget_);
+  std::vector<Shape> shapes = minkowski_sum(take_parts(frame), options_.threads, budget_);
   if (budget_.is_spent()) return;
-  if (!parts) {
-    refuse(frame.node,
-           "Minkowski sums of what is not convex are not supported yet; the first operand alone is "
-           "shown",
-           "Minkowski sums of what is not convex are not supported yet");
-    if (!is_nested) {
-      failed_[frame.node] = true;
-      next_ = frame.node;
-      --open_.back().operands;
-      return;
-    }
-    for (CornerSet& set : sets) {
-      set.is_convex = false;
-      if (set.operand == 0) give(frame, std::move(set));
-    }
-    return;
-  }
-  if (open_.back().mode == Mode::kSolid && parts->size() != 1) {
+  if (open_.back().mode == Mode::kSolid && shapes.size() != 1) {
     const Node& from = node_of(frame);
     const uint32_t id = document_.operation_ids[from.payload];
     const uint32_t body = begin_node(NodeKind::kBody, id, from);
-    for (Polyhedron& part : *parts) add_shape(std::move(part), id, from);
+    for (Shape& shape : shapes) add_shape(std::move(shape), id, from);
     out_.nodes[body].end = uint32_t(out_.nodes.size());
     return;
   }
-  for (Polyhedron& part : *parts) give(frame, Shape(std::move(part)));
+  for (Shape& shape : shapes) give(frame, std::move(shape));
+}
+
+void Evaluator::close_projection(const Frame& frame, const Projection& how) {
+  Polygons seen = how.cut ? take_united(frame) : shadow_of(close_model(), frame);
+  if (options_.outlines && dimensions_[0] == Dimension::kFlat) projections_[frame.node] = seen;
+  give(frame, std::move(seen));
 }
 
 void Evaluator::close_resize(const Frame& frame, const Resize& how) {
-  if (frame.mode == Mode::kSolid) {
+  if (frame.mode == Mode::kSolid && !frame.has_model) {
     resize_solid(out_, frame.out, how, options_, budget_);
   } else if (frame.mode == Mode::kFlat) {
     Polygons polygons = take_united(frame);
@@ -297,14 +291,15 @@ void Evaluator::close_resize(const Frame& frame, const Resize& how) {
     in_plane.size.z = 0;
     give(frame, transformed(resize_map(in_plane, {size.x, size.y, 0}), std::move(polygons)));
   } else {
-    std::vector<CornerSet> sets = take_corners(frame);
+    std::vector<SolidPart> parts =
+        frame.has_model ? parts_of(boundary_of(close_model(), frame), true) : take_parts(frame);
     Box box;
-    for (const CornerSet& set : sets)
-      for (const Vec3 p : set.points) box.include(p);
+    for (const SolidPart& part : parts)
+      for (const Vec3 p : part.points) box.include(p);
     const Affine map = box.is_empty() ? Affine{} : resize_map(how, box.size());
-    for (CornerSet& set : sets) {
-      for (Vec3& p : set.points) p = map.point(p);
-      give(frame, std::move(set));
+    for (SolidPart& part : parts) {
+      transform(map, part);
+      give(frame, std::move(part));
     }
   }
 }
@@ -325,11 +320,10 @@ Polygons Evaluator::take_united(const Frame& frame) {
   return unite(own);
 }
 
-std::vector<CornerSet> Evaluator::take_corners(const Frame& frame) {
-  const auto first = corners_.begin() + std::ptrdiff_t(frame.first_corners);
-  std::vector<CornerSet> own(std::make_move_iterator(first),
-                             std::make_move_iterator(corners_.end()));
-  corners_.erase(first, corners_.end());
+std::vector<SolidPart> Evaluator::take_parts(const Frame& frame) {
+  const auto first = parts_.begin() + std::ptrdiff_t(frame.first_parts);
+  std::vector<SolidPart> own(std::make_move_iterator(first), std::make_move_iterator(parts_.end()));
+  parts_.erase(first, parts_.end());
   return own;
 }
 
@@ -347,21 +341,23 @@ void Evaluator::give(const Frame& frame, Polygons polygons) {
 
 void Evaluator::give(const Frame& frame, Shape shape) {
   const Frame& parent = open_.back();
-  if (parent.mode == Mode::kCorners) {
-    give(frame, corners_of(shape, parent.wants_convex, budget_));
+  if (parent.mode == Mode::kParts || parent.mode == Mode::kSection) {
+    give(frame, part_of(shape, parent.wants_surface, budget_));
   } else {
     const Node& node = node_of(frame);
     add_shape(std::move(shape), document_.operation_ids[node.payload], node);
   }
 }
 
-void Evaluator::give(const Frame&, CornerSet set) {
-  if (set.points.empty()) return;
-  const Affine& map = open_.back().map;
-  if (map != Affine{}) {
-    for (Vec3& p : set.points) p = map.point(p);
+void Evaluator::give(const Frame&, SolidPart part) {
+  if (part.points.empty()) return;
+  const Frame& parent = open_.back();
+  transform(parent.map, part);
+  if (parent.mode == Mode::kParts) {
+    parts_.push_back(std::move(part));
+  } else if (Polygons polygons = section_of(part, budget_); is_measurable(polygons)) {
+    polygons_.push_back(std::move(polygons));
   }
-  corners_.push_back(std::move(set));
 }
 
 }  // namespace whittle

@@ -22,6 +22,13 @@ std::vector<Paths> on_grid(Grid& grid, std::span<const Polygons> operands) {
   return all;
 }
 
+Paths on_grid(Grid& grid, std::span<const Contour> contours) {
+  Paths paths;
+  paths.reserve(contours.size());
+  for (const Contour& contour : contours) paths.push_back(grid.to_grid(contour));
+  return paths;
+}
+
 Paths joined(std::span<const Paths> operands) {
   Paths all;
   for (const Paths& paths : operands) all.insert(all.end(), paths.begin(), paths.end());
@@ -48,10 +55,13 @@ Rect bounds(const Polygons& polygons) {
 
 Polygons even_odd(std::span<const Contour> contours) {
   Grid grid(reach(contours));
-  Paths paths;
-  paths.reserve(contours.size());
-  for (const Contour& contour : contours) paths.push_back(grid.to_grid(contour));
-  return grid.from_grid(sanitized(paths));
+  return grid.from_grid(sanitized(on_grid(grid, contours)));
+}
+
+Polygons nonzero(std::span<const Contour> contours) {
+  Grid grid(reach(contours));
+  return grid.from_grid(
+      clip(ClipperLib::ctUnion, on_grid(grid, contours), {}, ClipperLib::pftNonZero));
 }
 
 Polygons unite(std::span<const Polygons> operands) {

@@ -37,6 +37,10 @@ Rect bounds(const Polygons& polygons);
 /// The region that contours of any kind enclose an odd number of times.
 Polygons even_odd(std::span<const Contour> contours);
 
+/// The region about which contours of any kind wind, whichever way and how often: where it is as
+/// often one way as the other is outside.
+Polygons nonzero(std::span<const Contour> contours);
+
 Polygons unite(std::span<const Polygons> operands);
 Polygons intersect(std::span<const Polygons> operands);
 /// The first without all others.

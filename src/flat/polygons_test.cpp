@@ -53,6 +53,18 @@ TEST(Polygons, CrossedPathsAreFilledEvenOdd) {
   EXPECT_DOUBLE_EQ(area(even_odd(nested)), 81 - 49 + 1);
 }
 
+TEST(Polygons, NonzeroCountsTurns) {
+  // A star's middle is wound about twice; a hole is where the turns cancel.
+  Contour star;
+  for (int i = 0; i < 5; ++i) star.push_back({cos_degrees(144.0 * i), sin_degrees(144.0 * i)});
+  EXPECT_GT(area(nonzero(std::array{star})), area(even_odd(std::array{star})) + 0.1);
+  const Contour square = box(0, 0, 9, 9).contours[0], inner = box(1, 1, 8, 8).contours[0];
+  EXPECT_DOUBLE_EQ(area(nonzero(std::array{square, inner})), 81);
+  const Contour hole(inner.rbegin(), inner.rend());
+  EXPECT_DOUBLE_EQ(area(nonzero(std::array{square, hole})), 81 - 49);
+  EXPECT_TRUE(nonzero(std::vector<Contour>{}).is_empty());
+}
+
 TEST(Polygons, WrittenCornersComeBackToTheLastDigit) {
   const Vec2 odd[] = {{0.1, 0.2}, {1.0 / 3, 0.7}, {-0.12345678901234567, 5.0 / 7}};
   const Contour triangle(std::begin(odd), std::end(odd));

@@ -1,5 +1,10 @@
 #include "whittle/reading.h"
 
+#include <cstddef>
+#include <memory>
+
+#include "base/workers.h"
+#include "boundary/closed_mesh.h"
 #include "lower/lower.h"
 #include "model/instances.h"
 #include "subdivide/solid_bounds.h"
@@ -23,6 +28,17 @@ std::vector<SourceLocation> statement_places(const Model& model) {
     if (places[id] == SourceLocation{}) places[id] = node.where;
   }
   return places;
+}
+
+std::function<Result<TriangleMesh>(const Model&)> mesh_maker(int threads) {
+  return [threads, workers = std::shared_ptr<const Workers>()](const Model& model) mutable {
+    // A boundary that takes more takes minutes, or gigabytes.
+    BoundarySettings settings;
+    settings.cell_memory = size_t(1) << 28;
+    settings.pairs = 2'000'000'000;
+    if (!workers) workers = std::make_shared<const Workers>(threads);
+    return closed_mesh(model, *workers, settings);
+  };
 }
 
 }  // namespace whittle

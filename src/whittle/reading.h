@@ -1,16 +1,24 @@
 // What reading takes from the stages behind it.
 #pragma once
 
+#include <functional>
+
 #include "base/box.h"
+#include "base/result.h"
 #include "image/style.h"
 #include "model/model.h"
 #include "shape/fragments.h"
+#include "shape/triangle_mesh.h"
 
 namespace whittle {
 
 /// The tight box of a solid (subdivide/solid_bounds.h), for ReadOptions::solid_box; of one without
 /// end, or too large to be lowered, its bounds.
 Box tight_box(const Model& model);
+
+/// The boundaries of solids (boundary/closed_mesh.h), for ReadOptions::closed_mesh, on so many
+/// threads (0: all), which are started when the first is asked for. For one reader at a time.
+std::function<Result<TriangleMesh>(const Model&)> mesh_maker(int threads);
 
 /// The curves for pictures of that style, where these were chosen.
 constexpr Curves curves_in_style(Style style, Curves chosen) {

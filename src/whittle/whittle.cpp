@@ -19,7 +19,8 @@ ReadOptions reading_of(const LoadOptions& o) {
           .threads = threads_of(o.threads),
           .limits = o.limits,
           .outlines = has_outlines(curves_in_style(o.style, o.curves)),
-          .solid_box = tight_box};
+          .solid_box = tight_box,
+          .closed_mesh = mesh_maker(threads_of(o.threads))};
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 #include "agreement/cpu_subject.h"
 #include "agreement/raster_subject.h"
+#include "boundary/closed_mesh.h"
 #include "host/read_file.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"
@@ -103,8 +104,10 @@ int run(int argc, char** argv) {
     device = *std::move(opened);
     std::printf("%s\n", describe(*device).c_str());
   }
+  FileOptions options;
+  options.reading.closed_mesh = [](const Model& model) { return closed_mesh(model, Workers(0)); };
   for (const std::string& file : files) {
-    const Result<Read> read = read_file(file);
+    const Result<Read> read = read_file(file, options);
     if (!read) {
       std::printf("%s\n", read.error().message.c_str());
       good = false;

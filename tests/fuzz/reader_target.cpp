@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "boundary/closed_mesh.h"
 #include "csg/read_csg.h"
 #include "fuzz/require.h"
 #include "fuzz/target.h"
@@ -25,7 +26,10 @@ ReadOptions small_limits(Curves curves) {
       .curves = curves,
       .limits = {.bytes = 1 << 20, .depth = 3000, .nodes = 5000, .values = 20000, .facets = 3000},
       // Without a folder: no files are read.
-      .outlines = true};
+      .outlines = true,
+      .closed_mesh = [](const Model& model) {
+        return closed_mesh(model, Workers(1), {.cell_memory = 1 << 24, .pairs = 1'000'000});
+      }};
 }
 
 // Messages.

@@ -40,7 +40,8 @@ const Large kFiles[] = {
      ":1:8000009: error: statements are nested deeper than the limit of 1000000; --limit depth=N "
      "raises it\n"},
     {"one string", "text(\"", "a", "\");", 1,
-     ":1:1: error: flat shapes and hulls up to this one are computed from 20000000000 corners, "
+     ":1:1: error: flat shapes, hulls and sums up to this one are computed from 20000000000 "
+     "corners, "
      "more "
      "than the limit of 63000000; --limit facets=N raises it\n",
      kLarge},
