@@ -139,7 +139,9 @@ TEST_P(EvaluateRandom, IsClosedAndTheSameSolid) {
     BoundaryStats stats;
     const SolidMesh mesh = solid(scene, &stats);
     EXPECT_EQ(manifold_fault(mesh), "") << "seed " << seed;
-    EXPECT_FALSE(stats.asked_all_contacts && scene.boundaries.empty()) << "seed " << seed;
+    if (scene.boundaries.empty()) {
+      EXPECT_LE(stats.joins, 1u) << "seed " << seed;
+    }
     expect_same_points(scene, mesh, uint64_t(seed), "seed " + std::to_string(seed));
     if (HasFailure()) break;
   }
