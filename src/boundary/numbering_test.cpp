@@ -39,8 +39,8 @@ TEST(Numbering, EqualThingsHaveOneNumberInTheOrderOfTheFirst) {
 
 TEST(Buckets, EachHasItsNumbersInOrder) {
   const std::vector<uint32_t> values = some_values(50'000, 9);
-  const Buckets buckets =
-      sort_into_buckets(values.size(), 10, [&](size_t i) { return values[i]; }, Workers(3));
+  const Buckets buckets = sort_into_buckets(
+      values.size(), 10, [&](size_t i) { return values[i]; }, Workers(3));
   ASSERT_EQ(buckets.count(), 10u);
   size_t count = 0;
   for (size_t b = 0; b < 10; ++b) {
