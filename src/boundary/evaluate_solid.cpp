@@ -35,7 +35,7 @@ class PieceCollector {
   /// Adds what `add(maker, i, pieces)` makes for all i < n.
   template <class Add>
   void collect(size_t n, const Add& add, Pieces& out) {
-    constexpr size_t kChunk = 256;
+    constexpr size_t kChunk = 32;
     std::vector<Pieces> chunks((n + kChunk - 1) / kChunk);
     workers_.for_parts(chunks.size(), 1, [&](size_t first, size_t last, size_t worker) {
       PieceMaker& maker = makers_.of(worker, scene_, geometry_, half_spaces_);
