@@ -164,8 +164,8 @@ Status write_all(const RenderArguments& a, const std::vector<Output>& outputs, c
   for (const Output& output : outputs) {
     const Result<std::string> bytes =
         encode(std::get<FileFormat>(output.format), frame,
-               output.is(FileFormat::kPng) ? shown(a, frame, picture) : picture,
-               a.no_background, output.path, a.renderer.threads);
+               output.is(FileFormat::kPng) ? shown(a, frame, picture) : picture, a.no_background,
+               output.path, a.renderer.threads);
     if (!bytes) return bytes.error();
     if (Status written = write_output(output.path, *bytes); !written) return written;
   }

@@ -41,7 +41,7 @@ class PieceCollector {
   /// shares `from` to `to`.
   template <class Add>
   void collect(size_t n, const Add& add, double from, double to, Pieces& out) {
-    constexpr size_t kChunk = 256;
+    constexpr size_t kChunk = 32;
     std::vector<Pieces> chunks((n + kChunk - 1) / kChunk);
     std::atomic<size_t> done = 0;
     workers_.for_parts(chunks.size(), 1, [&](size_t first, size_t last, size_t worker) {
@@ -143,15 +143,28 @@ class PieceMark {
   size_t points_, edges_, owners_, count_;
 };
 
-/// The contacts that are asked what lies between their cells; all in which something may, or only
-/// those in which a leaf has a plane there.
+/// The contacts that are asked what lies between their cells: those of which a leaf has a plane
+/// there, those in planes that are to be asked, or all in which something may.
 std::vector<Contact> contacts_of(const CellTree& tree, const ExactGrid& grid,
                                  const PlaneTable& planes,
-                                 std::span<const PlacedHalfSpace> half_spaces, bool asks_all) {
+                                 std::span<const PlacedHalfSpace> half_spaces,
+                                 const std::vector<bool>& asked_planes, bool asks_all) {
   return walk_contacts(tree, grid, planes, [&](CellLink below, CellLink above, uint32_t plane) {
     if (!is_leaf(below.kind()) && !is_leaf(above.kind())) return below.kind() != above.kind();
-    return asks_all || has_plane(below, half_spaces, plane) || has_plane(above, half_spaces, plane);
+    return asks_all || asked_planes[plane] || has_plane(below, half_spaces, plane) ||
+           has_plane(above, half_spaces, plane);
   });
+}
+
+/// Cells for faces rather than rays: each plane of a leaf is cut by all others, and each split cuts
+/// the faces that it meets.
+SubdivideSettings cells_for_faces() {
+  constexpr uint32_t kPlanes = 24;
+  SubdivideSettings settings;
+  settings.leaf_size = kPlanes;
+  settings.least_use = 0;
+  settings.smallest_edge = 1e-6;
+  return settings;
 }
 
 }  // namespace
@@ -175,7 +188,7 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
   for (size_t i = 0; i < half_spaces.size(); ++i)
     half_spaces[i].plane = planes.add(grid.plane(scene.half_spaces[i], half_spaces[i].inside));
   const Paints paints(scene, half_spaces, settings.paints, planes);
-  SubdivideSettings subdivide;
+  SubdivideSettings subdivide = cells_for_faces();
   subdivide.memory = settings.cell_memory;
   const CellTree tree = open_cells(scene, subdivide, &workers);
   refine_all(tree, workers);
@@ -199,12 +212,15 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
   collector.collect(leaves.size(), add_leaf, kWithin, kBetween, pieces);
   const PieceMark within(pieces);
 
-  // Leaves are proven to agree where they touch, but for what lies there; where a body is a mesh
-  // they need not, by less than its slack. If they do not, all contacts are asked.
-  s.asked_all_contacts = !scene.boundaries.empty();
+  // Leaves are proven to agree where they touch, but for what lies there. Where a body is a mesh
+  // they need not, by less than its slack; then pieces are missing in a contact, and the lines
+  // around them are open, which lie in its plane.
+  constexpr size_t kJoinsByPlanes = 3;
+  std::vector<bool> asked_planes(planes.size());
+  std::vector<uint32_t> open_planes;
   while (true) {
     const std::vector<Contact> contacts =
-        contacts_of(tree, grid, planes, half_spaces, s.asked_all_contacts);
+        contacts_of(tree, grid, planes, half_spaces, asked_planes, s.asked_all_contacts);
     const auto add_contact = [&](PieceMaker& maker, size_t i, Pieces& out) {
       const Contact& contact = contacts[i];
       maker.between(contact.below, contact.above, contact.axis, contact.rectangle, out);
@@ -213,12 +229,18 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
     s.contacts = contacts.size();
     lap(s.cut_ms);
     if (is_stopped(kJoined)) return SolidMesh{};
-    const Result<FaceOutlines> outlines = join(pieces, geometry, workers);
+    const Result<FaceOutlines> outlines = join(pieces, geometry, workers, open_planes);
+    ++s.joins;
     lap(s.join_ms);
     if (is_stopped(kFilled)) return SolidMesh{};
     if (!outlines) {
       if (s.asked_all_contacts) return outlines.error();
-      s.asked_all_contacts = true;
+      bool has_new = false;
+      for (const uint32_t plane : open_planes) {
+        has_new = has_new || !asked_planes[plane];
+        asked_planes[plane] = true;
+      }
+      s.asked_all_contacts = !has_new || s.joins == kJoinsByPlanes;
       within.go_back(pieces);
       continue;
     }

@@ -16,7 +16,10 @@ namespace whittle {
 
 struct BoundaryStats {
   size_t leaves = 0, contacts = 0, pieces = 0, outline_edges = 0, shared_edges = 0, collapsed = 0;
-  bool asked_all_contacts = false;  ///< cells may disagree, by less than the boundaries' slack
+  bool asked_all_contacts = false;
+  /// How often pieces were joined. More than once if cells disagreed, which they may by less than
+  /// the boundaries' slack.
+  size_t joins = 0;
   double cells_ms = 0, cut_ms = 0, join_ms = 0, fill_ms = 0;
 };
 

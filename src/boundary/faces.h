@@ -32,8 +32,9 @@ struct FaceOutlines {
 /// corners on it. Where more than two faces meet in an edge, those that bound the same piece of
 /// material are twins, so that solids which only touch are apart (docs/decisions/0040-boundary.md).
 ///
-/// An error if the pieces do not bound a solid.
+/// An error if the pieces do not bound a solid; `open_planes` then are planes of lines on which
+/// they are open, in order.
 Result<FaceOutlines> join(const Pieces& pieces, const ExactGeometry& geometry,
-                          const Workers& workers);
+                          const Workers& workers, std::vector<uint32_t>& open_planes);
 
 }  // namespace whittle

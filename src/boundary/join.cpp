@@ -163,7 +163,7 @@ class LineJoiner {
 struct JoinedLines {
   std::vector<HalfEdge> edges;
   size_t shared = 0;
-  bool is_closed = true;
+  std::vector<uint32_t> open_planes;  ///< of lines on which there is no boundary
 };
 
 class LinesJoiner {
@@ -186,10 +186,18 @@ class LinesJoiner {
     next_ = firsts_;
     spans_.resize(edges.size());
     for (const uint32_t edge : edges) spans_[next_[lines_.numbers[edge] - first]++] = span_of(edge);
+    is_open_.assign(last - first, false);
+    bool has_open = false;
     for (size_t i = 0; i + 1 < firsts_.size(); ++i) {
       const auto on_line = std::span(spans_).subspan(firsts_[i], firsts_[i + 1] - firsts_[i]);
-      out.is_closed =
-          out.is_closed && joiner_.join(lines_.axes[first + i], on_line, out.edges, out.shared);
+      if (!joiner_.join(lines_.axes[first + i], on_line, out.edges, out.shared))
+        is_open_[i] = has_open = true;
+    }
+    if (!has_open) return;
+    for (const uint32_t edge : edges) {
+      if (!is_open_[lines_.numbers[edge] - first]) continue;
+      out.open_planes.push_back(pieces_.edges[edge].plane);
+      out.open_planes.push_back(pieces_.edges[edge].sheet >> 1);
     }
   }
 
@@ -210,6 +218,7 @@ class LinesJoiner {
   LineJoiner joiner_;
   std::vector<Span> spans_;
   std::vector<size_t> firsts_, next_;
+  std::vector<bool> is_open_;
 };
 
 /// Puts edges of one sheet in a row.
@@ -254,7 +263,8 @@ void drop_unused(FaceOutlines& outlines) {
 }  // namespace
 
 Result<FaceOutlines> join(const Pieces& pieces, const ExactGeometry& geometry,
-                          const Workers& workers) {
+                          const Workers& workers, std::vector<uint32_t>& open_planes) {
+  open_planes.clear();
   FaceOutlines outlines;
   std::vector<uint32_t> numbers;
   outlines.points = unify(pieces.points, geometry, workers, numbers);
@@ -277,7 +287,7 @@ Result<FaceOutlines> join(const Pieces& pieces, const ExactGeometry& geometry,
       joiner.join(i * kLines, std::min(count, (i + 1) * kLines), buckets[i], parts[i]);
   });
   for (JoinedLines& part : parts) {
-    if (!part.is_closed) return Error{ErrorKind::kInput, "the boundary is not closed"};
+    open_planes.insert(open_planes.end(), part.open_planes.begin(), part.open_planes.end());
     const auto before = uint32_t(outlines.edges.size());
     for (HalfEdge edge : part.edges) {
       edge.twin += before;
@@ -286,6 +296,9 @@ Result<FaceOutlines> join(const Pieces& pieces, const ExactGeometry& geometry,
     outlines.shared_edges += part.shared;
     part.edges = {};
   }
+  std::sort(open_planes.begin(), open_planes.end());
+  open_planes.erase(std::unique(open_planes.begin(), open_planes.end()), open_planes.end());
+  if (!open_planes.empty()) return Error{ErrorKind::kInput, "the boundary is not closed"};
   sort_by_sheet(outlines.edges, 2 * geometry.plane_count(), workers);
   drop_unused(outlines);
   return outlines;

@@ -16,7 +16,8 @@ namespace whittle {
 /// The numbers below some n in buckets, each of them in order.
 struct Buckets {
   std::vector<uint32_t> items;
-  std::vector<size_t> firsts;  ///< where each bucket begins in items, and the end
+  /// Where each bucket begins in items, and the end.
+  std::vector<size_t> firsts;
 
   size_t count() const { return firsts.size() - 1; }
   std::span<const uint32_t> operator[](size_t bucket) const {
