@@ -462,6 +462,16 @@ TEST(BuildPlanes, ADentInALargeMeshIsFoundWhereverItIs) {
   EXPECT_NE(refusal(star).find("not convex"), std::string::npos);
 }
 
+TEST(BuildPlanes, DentsAllOverAreToldBeforeEdgesAreLookedAt) {
+  // A waist, and a face is missing.
+  Polyhedron p = turned({{10, 10}, {5, 0}, {10, -10}}, 100);
+  p.faces.pop_back();
+  EXPECT_NE(refusal(p).find("not convex"), std::string::npos);
+  Polyhedron barrel = turned({{5, 10}, {10, 0}, {5, -10}}, 100);
+  barrel.faces.pop_back();
+  EXPECT_NE(refusal(barrel).find("not closed"), std::string::npos);
+}
+
 /// The top of a large box cut into triangles that meet in a point close to one edge of it.
 Polyhedron box_with_sliver(double height_of_point) {
   Polyhedron p = box({100, 100, 10});
