@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "measure/cut_patch.h"
 #include "measure/truth.h"
 #include "subdivide/classify.h"
 
@@ -32,6 +33,14 @@ void add_unknown(const Box& box, double surfaces, Integral& out) {
   Moments bounds = weighted(volume_of(box) / 2, box.center(), half);
   bounds[kArea] = surfaces * most_area(half);
   out.add(moved(moments, box.center()), bounds);
+}
+
+/// Of a part of a box, or of the rest of it.
+Moments within(Moments moments, bool complement, Vec3 half) {
+  if (!complement) return moments;
+  const Moments whole = box_moments(half);
+  for (size_t m = 0; m < kArea; ++m) moments[m] = whole[m] - moments[m];
+  return moments;
 }
 
 }  // namespace
@@ -178,12 +187,7 @@ void CellIntegrator::add_surface(const Part& part, const Quadric& f, bool comple
         worst_axis = half[i] >= half[j] ? i : j;
         continue;
       }
-      Moments moments = patch->moments(gauss_.rule(points));
-      if (complement) {
-        const Moments whole = box_moments(half);
-        for (size_t m = 0; m < kArea; ++m) moments[m] = whole[m] - moments[m];
-      }
-      out.add(moved(moments, center), bounds);
+      out.add(moved(within(patch->moments(gauss_.rule(points)), complement, half), center), bounds);
       return;
     }
   }
@@ -191,8 +195,35 @@ void CellIntegrator::add_surface(const Part& part, const Quadric& f, bool comple
     split(part, worst_axis);
     return;
   }
+  if (leaving && add_cut(part, leaving_axis, *leaving, complement, out)) return;
   if (leaving && shrink(part, leaving_axis, *leaving)) return;
   add_planes(part, {&f, 1}, full_table(complement ? 1 : 2, 1), out);
+}
+
+/// Of a surface that leaves through an end; or splits the part. False if that is not how it lies.
+bool CellIntegrator::add_cut(const Part& part, int axis, const GraphPatch& surface, bool complement,
+                             Integral& out) {
+  const Vec3 half = part.box.size() * 0.5, center = part.box.center();
+  int worst_axis = -1;
+  for (const int along : {(axis + 1) % 3, (axis + 2) % 3}) {
+    const std::optional<CutPatch> patch = CutPatch::make(surface, along);
+    if (!patch) continue;
+    for (const size_t points : {4, 6, 9}) {
+      const CutPatch::Bound bound = patch->bound(gauss_, points);
+      if (!(bound.volume < kInfinity)) break;
+      worst_axis = bound.worst_axis;
+      if (!(bound.volume <= each_)) continue;
+      const Moments bounds = patch->bounds(gauss_, bound, center);
+      if (!(bounds[kArea] * area_weight_ <= each_)) {
+        worst_axis = longest_axis(half);
+        continue;
+      }
+      out.add(moved(within(patch->moments(gauss_.rule(points)), complement, half), center), bounds);
+      return true;
+    }
+  }
+  if (worst_axis >= 0) split(part, worst_axis);
+  return worst_axis >= 0;
 }
 
 /// Cuts off what is beyond the surface on either side, if that is much.

@@ -36,7 +36,7 @@ class CellIntegrator {
   uint64_t parts() const { return parts_; }
 
  private:
-  static constexpr double kAreaWeight = 1e-3;
+  static constexpr double kAreaWeight = 1e-4;
   struct Part {
     Box box;
     uint64_t table = 0;  ///< all 64 rows, over used_
@@ -45,6 +45,8 @@ class CellIntegrator {
   void add_table(const Part& whole, Integral& out);
   void look_at(Part part, Integral& out);
   void add_surface(const Part& part, const Quadric& f, bool complement, Integral& out);
+  bool add_cut(const Part& part, int axis, const GraphPatch& surface, bool complement,
+               Integral& out);
   bool shrink(const Part& part, int axis, const GraphPatch& patch);
   void add_planes(const Part& part, std::span<const Quadric> surfaces, uint64_t table,
                   Integral& out);

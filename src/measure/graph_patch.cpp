@@ -57,6 +57,19 @@ std::optional<GraphPatch> GraphPatch::make(const Quadric& f, Vec3 half, int axis
   return p;
 }
 
+double GraphPatch::at(Vec3 p) const {
+  const double s = half_[i_] > 0 ? p[i_] / half_[i_] : 0, t = half_[j_] > 0 ? p[j_] / half_[j_] : 0;
+  const double beta = root_ + sign_ * (beta_x_ * s + beta_y_ * t);
+  return level_ - sign_ * phi_.at(s, t) / (beta + std::sqrt(d0_ + d_.at(s, t)));
+}
+
+double GraphPatch::norm() const {
+  double sum = 0;
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) sum += entry(f_, r, c) * entry(f_, r, c);
+  return std::sqrt(sum);
+}
+
 GraphPatch::Bound GraphPatch::bound(const GaussTable& gauss, size_t n) const {
   Bound bound;
   bound.points = n;
@@ -117,10 +130,6 @@ Moments GraphPatch::bounds(const GaussTable& gauss, const Bound& bound, Vec3 cen
   Vec3 middle;
   middle[k_] = level_;
   const double steep = length(Kernels<double>::quadric_half_gradient(f_, middle));
-  double norm = 0;
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) norm += entry(f_, r, c) * entry(f_, r, c);
-  norm = std::sqrt(norm);
   for (size_t axis = 0; axis < 2; ++axis) {
     const int along = axis == 0 ? i_ : j_;
     // For complex coordinates: how large they are, and the height of what lies below.
@@ -139,7 +148,7 @@ Moments GraphPatch::bounds(const GaussTable& gauss, const Bound& bound, Vec3 cen
       Vec3 way = half_;
       way[along] *= ellipse_reach(kEllipses[e]);
       way[k_] = reaches_[axis][e].rise;
-      const double turn = norm * length(way);
+      const double turn = norm() * length(way);
       const double change = (2 * steep + turn) * turn, square = steep * steep;
       if (!(change < square)) break;
       const double most = std::sqrt((square + change) / reaches_[axis][e].least_d);

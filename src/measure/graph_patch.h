@@ -43,6 +43,13 @@ class GraphPatch {
   Moments bounds(const GaussTable& gauss, const Bound& bound, Vec3 center) const;
 
  private:
+  friend class CutPatch;
+
+  /// Where the surface is along the axis, at a point of the base.
+  double at(Vec3 p) const;
+  /// Of f's second-degree part, as a matrix.
+  double norm() const;
+
   /// Without the constant; coordinates are those of the box's base, in halves of it.
   struct Polynomial {
     double x = 0, y = 0, xx = 0, xy = 0, yy = 0;

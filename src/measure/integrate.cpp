@@ -23,7 +23,7 @@ std::vector<Item> items_of(const CellTree& tree) {
   for_each_leaf(tree, [&](CellLink link, const Box& box) {
     if (link.kind() == CellKind::kFull || is_leaf(link.kind())) items.push_back({link, box});
   });
-  constexpr size_t kEnough = 1024;
+  constexpr size_t kEnough = 256;
   while (!items.empty() && items.size() < kEnough) {
     std::vector<Item> parts;
     for (const Item& item : items) {
@@ -129,7 +129,8 @@ Integrated integrate(const Scene& scene, const Workers& workers,
     const double share = std::pow(wanted / bound, 4.0 / 3) * 0.6;
     constexpr double kLeastShare = 1e-9;
     if (best->is_within || is_limited || !(share > kLeastShare)) return *best;
-    each *= std::min(share, 0.5);
+    // In small steps: a time through that takes too many parts is in vain.
+    each *= std::clamp(share, 1.0 / 64, 0.5);
   }
 }
 

@@ -38,8 +38,8 @@ struct ColorMass {
 struct Measures {
   Mass whole;
   /// In the order in which they first stand in the file. Together they are the whole; each point
-  /// has one colour (material.h). Empty if there is only one, or if there are more than
-  /// kMostColors.
+  /// has one colour (material.h). Those without volume are left out. Empty if there is only one, or
+  /// if there are more than kMostColors.
   std::vector<ColorMass> colors;
   size_t color_count = 0;  ///< of primitives of the solid
 };
