@@ -1,6 +1,7 @@
 #include "boundary/evaluate_solid.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "base/timing.h"
@@ -25,25 +26,31 @@ bool has_plane(CellLink link, std::span<const PlacedHalfSpace> half_spaces, uint
 class PieceCollector {
  public:
   PieceCollector(const Scene& scene, const ExactGeometry& geometry,
-                 std::span<const PlacedHalfSpace> half_spaces, const Workers& workers)
+                 std::span<const PlacedHalfSpace> half_spaces, const Workers& workers, size_t most)
       : workers_(workers),
+        most_(most),
         makers_(workers),
         scene_(scene),
         geometry_(geometry),
         half_spaces_(half_spaces) {}
 
-  /// Adds what `add(maker, i, pieces)` makes for all i < n.
+  /// Adds what `add(maker, i, pieces)` makes for all i < n. False if there are more than may be.
   template <class Add>
-  void collect(size_t n, const Add& add, Pieces& out) {
+  bool collect(size_t n, const Add& add, Pieces& out) {
     constexpr size_t kChunk = 256;
+    std::atomic<size_t> count = out.count;
     std::vector<Pieces> chunks((n + kChunk - 1) / kChunk);
     workers_.for_parts(chunks.size(), 1, [&](size_t first, size_t last, size_t worker) {
       PieceMaker& maker = makers_.of(worker, scene_, geometry_, half_spaces_);
-      for (size_t chunk = first; chunk < last; ++chunk)
+      for (size_t chunk = first; chunk < last && count <= most_; ++chunk) {
         for (size_t i = chunk * kChunk; i < std::min(n, (chunk + 1) * kChunk); ++i)
           add(maker, i, chunks[chunk]);
+        count += chunks[chunk].count;
+      }
     });
+    if (count > most_) return false;
     for (Pieces& chunk : chunks) append(chunk, out);
+    return true;
   }
 
  private:
@@ -59,6 +66,7 @@ class PieceCollector {
   }
 
   const Workers& workers_;
+  size_t most_;
   PerWorker<PieceMaker> makers_;
   const Scene& scene_;
   const ExactGeometry& geometry_;
@@ -152,16 +160,16 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
   const std::vector<WalkedLeaf> leaves = walk_leaves(tree, grid, planes);
   s.leaves = leaves.size();
   lap(s.cells_ms);
-  if (pairs_in(leaves) > limits.pairs)
-    return Error{ErrorKind::kInput, "its surfaces cross one another in too many places"};
+  const Error too_much{ErrorKind::kInput, "its surfaces cross one another in too many places"};
+  if (pairs_in(leaves) > limits.pairs) return too_much;
 
   const ExactGeometry geometry(planes);
-  PieceCollector collector(scene, geometry, half_spaces, workers);
+  PieceCollector collector(scene, geometry, half_spaces, workers, limits.pieces);
   Pieces pieces;
   const auto add_leaf = [&](PieceMaker& maker, size_t i, Pieces& out) {
     maker.within(leaves[i].link, leaves[i].sides, out);
   };
-  collector.collect(leaves.size(), add_leaf, pieces);
+  if (!collector.collect(leaves.size(), add_leaf, pieces)) return too_much;
   const PieceMark within(pieces);
 
   // Leaves are proven to agree where they touch, but for what lies there; where a body is a mesh
@@ -174,7 +182,7 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
       const Contact& contact = contacts[i];
       maker.between(contact.below, contact.above, contact.axis, contact.rectangle, out);
     };
-    collector.collect(contacts.size(), add_contact, pieces);
+    if (!collector.collect(contacts.size(), add_contact, pieces)) return too_much;
     s.contacts = contacts.size();
     lap(s.cut_ms);
     LineTable lines(geometry);

@@ -21,7 +21,8 @@ Box tight_box(const Model& model) {
 std::function<Result<TriangleMesh>(const Model&)> mesh_maker(int threads) {
   return [threads, workers = std::shared_ptr<const Workers>()](const Model& model) mutable {
     // A boundary that takes more takes minutes, or gigabytes.
-    constexpr BoundaryLimits kLimits{.cell_memory = size_t(1) << 28, .pairs = 2'000'000'000};
+    constexpr BoundaryLimits kLimits{
+        .cell_memory = size_t(1) << 28, .pairs = 1'000'000'000, .pieces = 1'000'000};
     if (!workers) workers = std::make_shared<const Workers>(threads);
     return closed_mesh(model, *workers, kLimits);
   };
