@@ -39,6 +39,7 @@ TEST(ClosedMesh, HasLimits) {
   const Model model = facetted_model_of("difference() { sphere(5, $fn = 30); cube(9); }");
   EXPECT_TRUE(closed_mesh(model, workers));
   EXPECT_FALSE(closed_mesh(model, workers, {.pairs = 100}));
+  EXPECT_FALSE(closed_mesh(model, workers, {.pieces = 100}));
 }
 
 }  // namespace

@@ -38,22 +38,29 @@ class PieceCollector {
         settings_(settings) {}
 
   /// Adds what `add(maker, i, pieces)` makes for all i < n. Of all that is to be done these are the
-  /// shares `from` to `to`.
+  /// shares `from` to `to`. False if there are more pieces than may be.
   template <class Add>
-  void collect(size_t n, const Add& add, double from, double to, Pieces& out) {
+  bool collect(size_t n, const Add& add, double from, double to, Pieces& out) {
     constexpr size_t kChunk = 32;
+    std::atomic<size_t> count = out.count;
     std::vector<Pieces> chunks((n + kChunk - 1) / kChunk);
     std::atomic<size_t> done = 0;
     workers_.for_parts(chunks.size(), 1, [&](size_t first, size_t last, size_t worker) {
       PieceMaker& maker = makers_.of(worker, scene_, geometry_, half_spaces_, paints_);
-      for (size_t chunk = first; chunk < last && !settings_.stop.stop_requested(); ++chunk) {
+      const auto is_over = [&] {
+        return settings_.stop.stop_requested() || count > settings_.pieces;
+      };
+      for (size_t chunk = first; chunk < last && !is_over(); ++chunk) {
         for (size_t i = chunk * kChunk; i < std::min(n, (chunk + 1) * kChunk); ++i)
           add(maker, i, chunks[chunk]);
+        count += chunks[chunk].count;
         if (settings_.progress)
           settings_.progress(from + (to - from) * double(++done) / double(chunks.size()));
       }
     });
+    if (count > settings_.pieces) return false;
     append(chunks, out);
+    return true;
   }
 
  private:
@@ -195,8 +202,8 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
   const std::vector<WalkedLeaf> leaves = walk_leaves(tree, grid, planes);
   s.leaves = leaves.size();
   lap(s.cells_ms);
-  if (pairs_in(leaves) > settings.pairs)
-    return Error{ErrorKind::kInput, "its surfaces cross one another in too many places"};
+  const Error too_much{ErrorKind::kInput, "its surfaces cross one another in too many places"};
+  if (pairs_in(leaves) > settings.pairs) return too_much;
   constexpr double kWithin = 0.4, kBetween = 0.6, kJoined = 0.7, kFilled = 0.9;
   const auto is_stopped = [&](double share) {
     if (settings.progress) settings.progress(share);
@@ -209,7 +216,7 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
   const auto add_leaf = [&](PieceMaker& maker, size_t i, Pieces& out) {
     maker.within(leaves[i].link, leaves[i].sides, out);
   };
-  collector.collect(leaves.size(), add_leaf, kWithin, kBetween, pieces);
+  if (!collector.collect(leaves.size(), add_leaf, kWithin, kBetween, pieces)) return too_much;
   const PieceMark within(pieces);
 
   // Leaves are proven to agree where they touch, but for what lies there. Where a body is a mesh
@@ -225,7 +232,8 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
       const Contact& contact = contacts[i];
       maker.between(contact.below, contact.above, contact.axis, contact.rectangle, out);
     };
-    collector.collect(contacts.size(), add_contact, kBetween, kJoined, pieces);
+    if (!collector.collect(contacts.size(), add_contact, kBetween, kJoined, pieces))
+      return too_much;
     s.contacts = contacts.size();
     lap(s.cut_ms);
     if (is_stopped(kJoined)) return SolidMesh{};

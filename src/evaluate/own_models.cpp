@@ -44,7 +44,8 @@ TriangleMesh Evaluator::boundary_of(const Model& model, const Frame& frame) {
     budget_.refuse("this solid cannot be evaluated: " + mesh.error().message);
     return {};
   }
-  budget_.work(mesh->triangles.size());
+  constexpr uint64_t kPerTriangle = 10;
+  budget_.work(kPerTriangle * mesh->triangles.size());
   return *std::move(mesh);
 }
 

@@ -35,7 +35,8 @@ std::function<Result<TriangleMesh>(const Model&)> mesh_maker(int threads) {
     // A boundary that takes more takes minutes, or gigabytes.
     BoundarySettings settings;
     settings.cell_memory = size_t(1) << 28;
-    settings.pairs = 2'000'000'000;
+    settings.pairs = 1'000'000'000;
+    settings.pieces = 1'000'000;
     if (!workers) workers = std::make_shared<const Workers>(threads);
     return closed_mesh(model, *workers, settings);
   };

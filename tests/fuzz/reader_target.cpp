@@ -28,7 +28,8 @@ ReadOptions small_limits(Curves curves) {
       // Without a folder: no files are read.
       .outlines = true,
       .closed_mesh = [](const Model& model) {
-        return closed_mesh(model, Workers(1), {.cell_memory = 1 << 24, .pairs = 1'000'000});
+        return closed_mesh(model, Workers(1),
+                           {.cell_memory = 1 << 24, .pairs = 1'000'000, .pieces = 10'000});
       }};
 }
 
