@@ -146,13 +146,15 @@ Result<double> measure_file(const std::string& file, const BenchArguments& a) {
   if (!read) return read.error();
   Result<Renderer> renderer = Renderer::make(read->model, a.renderer);
   if (!renderer) return renderer.error();
-  const Camera camera = renderer->camera(a.view);
+  const ShadeSettings look;
+  ViewOptions view = a.view;
+  view.tight = frames_tightly(look.style);
+  const Camera camera = renderer->camera(view);
   if (Status prepared = renderer->prepare(camera); !prepared) return prepared.error();
   const Result<Frame> frame = renderer->trace(camera);
   if (!frame) return frame.error();
-  const ShadeSettings look;
   const Result<Picture> picture =
-      renderer->shade(*frame, camera, look, default_antialias(look.style));
+      renderer->shade(*frame, camera, look, default_antialias(look.style, look.quality));
   if (!picture) return picture.error();
   const Result<std::string> bytes =
       encode(FileFormat::kPng, *frame, *picture, false, file, a.renderer.threads);
@@ -216,7 +218,9 @@ Result<Json> measure(const std::string& file, const BenchArguments& a) {
     const Result<Frame> frame = renderer->trace(camera);
     if (!frame) return frame.error();
     raster_times.note_stream(*renderer, watch.milliseconds());
-    const Result<Picture> picture = renderer->shade(*frame, camera, ShadeSettings{}, 1);
+    ShadeSettings plain;
+    plain.style = Style::kPlain;
+    const Result<Picture> picture = renderer->shade(*frame, camera, plain, 1);
     if (!picture) return picture.error();
     cold.push_back(watch.milliseconds());
     shade.push_back(renderer->times().shade);

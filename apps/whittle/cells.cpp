@@ -53,8 +53,8 @@ void add_options(CommandLine& line, CellsArguments& a) {
                     "{}; faces: front faces of the nearest\ncells, translucent",
                     [&](CellView show) { a.show = show; });
   add_view_options(app, a.view, a.loading);
-  look.add_choice("--style", style_choices(), "style", "{}",
-                  [&](Style style) { a.shading.style = style; });
+  a.shading.style = Style::kPlain;
+  add_style_options(app, a.shading);
   add_color_options(app, a.shading);
   add_shadow_option(app, a.shading);
   look.add_flag("--no-background", a.no_background, "what is not hit is transparent");
@@ -73,8 +73,8 @@ Result<Picture> draw(const CellsArguments& a, const Model& model, Renderer& rend
   const Result<Frame> frame = renderer.trace(camera, {.progress = progress.share()});
   if (!frame) return frame.error();
   progress.stage("drawing");
-  Result<Picture> picture =
-      renderer.shade(*frame, camera, a.shading, default_antialias(a.shading.style));
+  Result<Picture> picture = renderer.shade(*frame, camera, a.shading,
+                                           default_antialias(a.shading.style, a.shading.quality));
   if (picture) {
     say_if_nothing_is_seen(model, *frame, a.loading);
     draw_cells(*renderer.cells(), renderer.scene()->origin, camera, *frame, a.show, *picture);
@@ -94,6 +94,7 @@ Result<int> run(CellsArguments& a) {
   if (Status possible = check_not_input(a.output, a.file); !possible) return possible.error();
   if (Status possible = check_writable(a.output); !possible) return possible.error();
   suit_style(a.shading.style, a.loading);
+  a.view.tight = frames_tightly(a.shading.style);
   const Result<Read> read = load(a.file, a.loading);
   if (!read) return read.error();
   RunTimes times{.read = watch.milliseconds()};

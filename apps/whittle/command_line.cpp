@@ -194,6 +194,17 @@ void add_shadow_option(CLI::App& app, ShadeSettings& shading) {
                 "lights reach only what they see (not in style openscad)");
 }
 
+void add_style_options(CLI::App& app, ShadeSettings& shading) {
+  OptionGroup group(app, "Look");
+  group.add_choice("--style", style_choices(), "style", "{}",
+                   [&](Style style) { shading.style = style; });
+  group.add_choice("--quality", quality_choices(), "quality",
+                   "style studio: {} (good); draft: no rays for\nshadows, best: many",
+                   [&](Quality quality) { shading.quality = quality; });
+  group.add_flag(
+      "--no-ground", [&] { shading.ground = false; }, "style studio: no shadow on the ground");
+}
+
 void add_machine_options(CLI::App& app, RendererSettings& settings, Loading& loading) {
   OptionGroup group(app, "Machine");
   group.add_text("--backend", "NAME",

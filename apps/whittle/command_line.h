@@ -58,6 +58,9 @@ void add_color_options(CLI::App& app, ShadeSettings& shading);
 /// --shadows.
 void add_shadow_option(CLI::App& app, ShadeSettings& shading);
 
+/// --style; --quality and --no-ground, which are of style studio.
+void add_style_options(CLI::App& app, ShadeSettings& shading);
+
 /// --backend, --device, --threads and the like. OpenSCAD's own backends stand for `auto`: the
 /// picture is the same. Files are read on as many threads.
 void add_machine_options(CLI::App& app, RendererSettings& settings, Loading& loading);

@@ -111,12 +111,11 @@ void add_options(CommandLine& line, RenderArguments& a) {
   add_summary_options(app, a.summary);
   add_reference_options(app, a.reference);
   add_view_options(app, a.view, a.loading);
-  look.add_choice("--style", style_choices(), "style", "{}",
-                  [&](Style style) { a.shading.style = style; });
+  add_style_options(app, a.shading);
   add_color_options(app, a.shading);
   add_shadow_option(app, a.shading);
   look.add_count("--aa", "N", a.antialias, 1, kMostAntialias,
-                 "N x N rays a pixel at edges, 1 to 16 (studio: 4)");
+                 "N x N rays a pixel at edges, 1 to 16 (studio: 3)");
   look.add_flag("--no-background", a.no_background, "what is not hit is transparent");
   add_loading_options(line, a.loading);
   add_lenient_option(app, a.loading);
@@ -194,7 +193,8 @@ Status draw(const RenderArguments& a, const std::vector<Output>& outputs, const 
       });
   if (!shows_color) return Done{};
   progress.stage("shading");
-  const int rays = a.antialias > 0 ? a.antialias : default_antialias(a.shading.style);
+  const int rays =
+      a.antialias > 0 ? a.antialias : default_antialias(a.shading.style, a.shading.quality);
   Result<Picture> shaded = renderer.shade(frame, camera, a.shading, rays);
   if (!shaded) return shaded.error();
   picture = *std::move(shaded);
@@ -431,6 +431,7 @@ Result<int> run(RenderArguments& a) {
   if (Status possible = check_templates(a.files, templates_of(a, *outputs), moves); !possible)
     return possible.error();
   suit_style(a.shading.style, a.loading);
+  a.view.tight = frames_tightly(a.shading.style);
   apply(a.subdivision, a.renderer);
   a.shading.background = !a.no_background;
   if (a.files.size() > 1) return run_many(a, *outputs);

@@ -20,9 +20,17 @@ enum class ShaderCases {
 };
 
 enum class Style {
-  kStudio,    ///< soft lights fixed to the camera, computed in linear light
+  kStudio,    ///< as a photograph of a product: ambient occlusion, lines at edges, a ground
+  kPlain,     ///< soft lights fixed to the camera, computed in linear light; no rays but the eye's
   kBlinn,     ///< one positional light, Blinn highlight; values are display values, as in the paper
   kOpenscad,  ///< what OpenSCAD's --render draws; it knows no color()
+};
+
+/// What Style::kStudio spends on a picture (docs/performance.md has the milliseconds).
+enum class Quality {
+  kDraft,  ///< lights and lines alone
+  kGood,   ///< a few rays of ambient occlusion, shared by neighbouring pixels
+  kBest,   ///< 16 of them from each pixel, and more rays at edges
 };
 
 /// What becomes of spheres, cylinders and other curves.

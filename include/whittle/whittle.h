@@ -61,7 +61,8 @@ struct LoadOptions {
 struct RenderOptions {
   int width = 512, height = 512;  ///< pixels; each 1 to 65535, together at most 2^28
 
-  // The view is OpenSCAD's. With none of the first five set, all of the solid is framed.
+  // The view is OpenSCAD's. With none of the first five set, all of the solid is framed: tightly in
+  // style kStudio, as OpenSCAD does it in the others.
   std::optional<Point> eye{}, center{};     ///< vector form: from eye to center, +z up
   std::optional<Point> target{};            ///< gimbal form: the point looked at,
   std::optional<Point> rotation_degrees{};  ///< Euler angles,
@@ -72,12 +73,14 @@ struct RenderOptions {
   std::optional<double>
       fov_degrees{};  ///< vertical, between 0 and 180; unset: the file's, else 22.5
 
-  std::optional<Style> style{};  ///< unset: that of LoadOptions
-  std::string color_scheme{};    ///< one of OpenSCAD's; empty: the style's own
-  std::optional<Point> light{};  ///< Style::kBlinn: where the light stands; unset: at the eye
-  bool shadows = false;          ///< lights reach only what they see; not with Style::kOpenscad
-  bool background = true;        ///< false: what is not hit is transparent
-  int antialias = 0;             ///< n * n rays a pixel at edges, 1 to 16; 0: what suits the style
+  std::optional<Style> style{};      ///< unset: that of LoadOptions
+  std::string color_scheme{};        ///< one of OpenSCAD's; empty: the style's own
+  std::optional<Point> light{};      ///< Style::kBlinn: where the light stands; unset: at the eye
+  bool shadows = false;              ///< lights reach only what they see; not with Style::kOpenscad
+  Quality quality = Quality::kGood;  ///< Style::kStudio
+  bool ground = true;                ///< Style::kStudio: a soft shadow below the solid
+  bool background = true;            ///< false: what is not hit is transparent
+  int antialias = 0;  ///< n * n rays a pixel at edges, 1 to 16; 0: what suits the style
 };
 
 /// What renders it.

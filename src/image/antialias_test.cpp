@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "image/edge_pixels.h"
 #include "image/srgb.h"
 #include "support/instruction_sets.h"
 #include "trace/view_for_test.h"
@@ -15,6 +16,12 @@ namespace whittle {
 namespace {
 
 const Workers kWorkers(0);
+
+ShadeSettings plain() {
+  ShadeSettings settings;
+  settings.style = Style::kPlain;
+  return settings;
+}
 
 /// A tracer of anything that a function can say about a ray; counts what it is asked.
 class FunctionTracer : public Tracer {
@@ -96,7 +103,7 @@ TEST(Antialias, OnlyPixelsBesideTheEdgeAreTracedAgain) {
   FunctionTracer tracer = edge_tracer(0.5, 2);
   const Camera camera = top_camera(20, 10);
   const Frame frame = tracer.render(camera, {});
-  shade_antialiased(tracer, camera, frame, {}, {}, 3, kWorkers);
+  shade_antialiased(tracer, camera, frame, {}, plain(), 3, kWorkers);
   // The border between pixel columns 9 and 10, or 10 and 11: two columns of ten rows.
   EXPECT_EQ(tracer.probed.size(), size_t(2 * 10 * 9));
 }
@@ -114,7 +121,7 @@ TEST(Antialias, EveryEdgePixelIsTracedOnceHoweverLargeThePicture) {
     const Frame frame = tracer.render(camera, {});
     const std::vector<uint8_t> mask = edge_mask(frame, camera, kWorkers);
     tracer.probed.clear();
-    shade_antialiased(tracer, camera, frame, {}, {}, 2, kWorkers);
+    shade_antialiased(tracer, camera, frame, {}, plain(), 2, kWorkers);
     std::vector<int> samples(mask.size());
     for (const PixelPosition& p : tracer.probed)
       ++samples[size_t(p.y) * size_t(width) + size_t(p.x)];
@@ -127,23 +134,23 @@ TEST(Antialias, OneSampleIsPlainShading) {
   FunctionTracer tracer = edge_tracer(0.5, 2);
   const Camera camera = top_camera(8, 4);
   const Frame frame = tracer.render(camera, {});
-  EXPECT_EQ(shade_antialiased(tracer, camera, frame, {}, {}, 1, kWorkers).rgba,
-            shade(frame, camera, {}, {}, kWorkers).rgba);
+  EXPECT_EQ(shade_antialiased(tracer, camera, frame, {}, plain(), 1, kWorkers).rgba,
+            shade(frame, camera, {}, plain(), kWorkers).rgba);
   EXPECT_EQ(tracer.probed.size(), 0u);
 }
 
-TEST(Antialias, StudioAveragesLightAndTheOthersDisplayValues) {
+TEST(Antialias, PlainAveragesLightAndTheOthersDisplayValues) {
   FunctionTracer tracer = edge_tracer(0.5, 2);
   const Camera camera = top_camera(8, 4);
   const Frame frame = tracer.render(camera, {});
-  for (const Style style : {Style::kStudio, Style::kBlinn, Style::kOpenscad}) {
+  for (const Style style : {Style::kPlain, Style::kBlinn, Style::kOpenscad}) {
     ShadeSettings settings;
     settings.style = style;
     const Picture p =
         shade_antialiased(tracer, camera, frame, kBlackAndWhite, settings, 2, kWorkers);
     const float dark = float(p.at(0, 1)[1]) / 255, bright = float(p.at(7, 1)[1]) / 255;
     const float mean =
-        style == Style::kStudio
+        style == Style::kPlain
             ? srgb_from_linear((linear_from_srgb(dark) + linear_from_srgb(bright)) / 2)
             : (dark + bright) / 2;
     // The highlight of the light at the eye is not the same in each pixel.
@@ -273,8 +280,8 @@ TEST(Antialias, IsTheSameOnOneThread) {
   const Camera camera = make_camera(options, {}, Box{{-5, -5, -5}, {5, 5, 5}});
   FunctionTracer tracer([](const Ray& ray) { return ball(ray, 5); });
   const Frame frame = tracer.render(camera, {});
-  const Picture p = shade_antialiased(tracer, camera, frame, {}, {}, 4, kWorkers);
-  EXPECT_EQ(shade_antialiased(tracer, camera, frame, {}, {}, 4, Workers(1)).rgba, p.rgba);
+  const Picture p = shade_antialiased(tracer, camera, frame, {}, plain(), 4, kWorkers);
+  EXPECT_EQ(shade_antialiased(tracer, camera, frame, {}, plain(), 4, Workers(1)).rgba, p.rgba);
 }
 
 TEST(Antialias, TheEdgeOfAShadowIsAnEdge) {

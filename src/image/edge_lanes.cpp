@@ -17,7 +17,6 @@
 namespace whittle {
 namespace {
 
-constexpr float kCosCrease = 0.99026806874157f;  ///< cos 8 degrees
 constexpr float kDepthStepPixels = 2;
 
 }  // namespace
@@ -66,14 +65,15 @@ HWY_INLINE hn::Mask<D> off_plane(Real3 normal, Real3 between, Real3 other_direct
                 hn::Mul(step, hn::Abs(dot(normal, other_direction))));
 }
 
-HWY_INLINE hn::Mask<D> differ(const EdgeRow& row_a, size_t a, const EdgeRow& row_b, size_t b) {
+HWY_INLINE hn::Mask<D> differ(const EdgeRow& row_a, size_t a, const EdgeRow& row_b, size_t b,
+                              float least_cosine) {
   const Word id = hn::LoadU(DU(), &row_a.ids[a]);
   const auto other = hn::RebindMask(D(), hn::Ne(id, hn::LoadU(DU(), &row_b.ids[b])));
   const auto hit = hn::RebindMask(D(), hn::Ne(id, hn::Zero(DU())));
   if (hn::AllFalse(D(), hn::AndNot(other, hit))) return other;
   const Real3 normal_a = load3(row_a, EdgeRow::kNormalX, a),
               normal_b = load3(row_b, EdgeRow::kNormalX, b);
-  const auto crease = hn::Lt(dot(normal_a, normal_b), set(kCosCrease));
+  const auto crease = hn::Lt(dot(normal_a, normal_b), set(least_cosine));
   const Real3 between = sub(load3(row_b, EdgeRow::kPointX, b), load3(row_a, EdgeRow::kPointX, a));
   const Real step = hn::Max(hn::LoadU(D(), &row_a.columns[EdgeRow::kStep][a]),
                             hn::LoadU(D(), &row_b.columns[EdgeRow::kStep][b]));
@@ -87,14 +87,15 @@ HWY_INLINE Word bit_where(hn::Mask<D> mask, uint32_t bit) {
   return hn::IfThenElseZero(hn::RebindMask(DU(), mask), hn::Set(DU(), bit));
 }
 
-void differences_in_lanes(const EdgeRow& here, const EdgeRow* below, std::span<uint8_t> bits) {
+void differences_in_lanes(const EdgeRow& here, const EdgeRow* below, float least_cosine,
+                          std::span<uint8_t> bits) {
   for (size_t x = 0; x < bits.size(); x += hn::Lanes(D())) {
     const size_t at = EdgeRow::kBefore + x;
-    Word found = bit_where(differ(here, at, here, at + 1), kRight);
+    Word found = bit_where(differ(here, at, here, at + 1, least_cosine), kRight);
     if (below != nullptr) {
-      found = hn::Or(found, bit_where(differ(here, at, *below, at - 1), kBelowLeft));
-      found = hn::Or(found, bit_where(differ(here, at, *below, at), kBelow));
-      found = hn::Or(found, bit_where(differ(here, at, *below, at + 1), kBelowRight));
+      found = hn::Or(found, bit_where(differ(here, at, *below, at - 1, least_cosine), kBelowLeft));
+      found = hn::Or(found, bit_where(differ(here, at, *below, at, least_cosine), kBelow));
+      found = hn::Or(found, bit_where(differ(here, at, *below, at + 1, least_cosine), kBelowRight));
     }
     HWY_ALIGN uint32_t words[kMostFloatLanes];
     hn::Store(found, DU(), words);
@@ -120,8 +121,9 @@ void look_at_row(const PixelRays& rays, std::span<const Hit> hits, int y, EdgeRo
   WHITTLE_DISPATCH(look_in_lanes)(rays, hits, y, row);
 }
 
-void find_differences(const EdgeRow& here, const EdgeRow* below, std::span<uint8_t> bits) {
-  WHITTLE_DISPATCH(differences_in_lanes)(here, below, bits);
+void find_differences(const EdgeRow& here, const EdgeRow* below, float least_cosine,
+                      std::span<uint8_t> bits) {
+  WHITTLE_DISPATCH(differences_in_lanes)(here, below, least_cosine, bits);
 }
 
 }  // namespace whittle

@@ -48,8 +48,10 @@ void look_at_row(const PixelRays& rays, std::span<const Hit> hits, int y, EdgeRo
 /// Neighbours that stand after a pixel, and the bit of each.
 enum LaterNeighbour : uint8_t { kRight = 1, kBelowLeft = 2, kBelow = 4, kBelowRight = 8 };
 
-/// For each pixel of a row, as many as `bits`, which of its later neighbours differ from it.
+/// For each pixel of a row, as many as `bits`, which of its later neighbours differ from it; those
+/// do whose normals have a lesser cosine, and others (edge_pixels.h).
 /// Neighbours beyond the row's ends do not; `below` is null for the last row.
-void find_differences(const EdgeRow& here, const EdgeRow* below, std::span<uint8_t> bits);
+void find_differences(const EdgeRow& here, const EdgeRow* below, float least_cosine,
+                      std::span<uint8_t> bits);
 
 }  // namespace whittle

@@ -12,15 +12,24 @@ Vec3f linear(Vec3f srgb) {
   return {linear_from_srgb(srgb.x), linear_from_srgb(srgb.y), linear_from_srgb(srgb.z)};
 }
 
-/// The studio's own colours: a light backdrop, a cool light grey for material, a warm one for cuts.
-/// A drawing has one tone, and must stand out by that.
+/// The studio's own colours: a light backdrop, and for material the light grey of sprayed plastic,
+/// a little warmer where it is cut: a photograph knows no cutters.
 constexpr ColorScheme kStudioScheme{"",
-                                    {250, 251, 252},
-                                    {218, 222, 228},
-                                    {196, 206, 218},
-                                    {231, 199, 165},
-                                    {196, 206, 218},
+                                    {252, 252, 253},
+                                    {228, 231, 235},
+                                    {204, 210, 218},
+                                    {216, 211, 204},
+                                    {204, 210, 218},
                                     {86, 112, 146}};
+/// The plain style's: a cool light grey for material, a warm one for cuts. A drawing has one tone,
+/// and must stand out by that.
+constexpr ColorScheme kPlainScheme{"",
+                                   {250, 251, 252},
+                                   {218, 222, 228},
+                                   {196, 206, 218},
+                                   {231, 199, 165},
+                                   {196, 206, 218},
+                                   {86, 112, 146}};
 /// As in the studio, but flat white behind: the paper's pictures stand on white.
 constexpr ColorScheme kBlinnScheme{"",
                                    {255, 255, 255},
@@ -35,6 +44,8 @@ ColorScheme own_scheme(const ShadeSettings& settings) {
   switch (settings.style) {
     case Style::kStudio:
       return kStudioScheme;
+    case Style::kPlain:
+      return kPlainScheme;
     case Style::kBlinn:
       return kBlinnScheme;
     case Style::kOpenscad:
@@ -43,7 +54,7 @@ ColorScheme own_scheme(const ShadeSettings& settings) {
   return color_schemes().front();
 }
 
-// The studio's lights: directions in eye space (right, up, towards the viewer).
+// The lights of studio and plain: directions in eye space (right, up, towards the viewer).
 constexpr Vec3f kKeyDirection{-0.5f, 0.6f, 0.85f}, kFillDirection{0.85f, 0.05f, 0.55f},
     kRimDirection{0.35f, 0.45f, -0.85f};
 
@@ -63,6 +74,7 @@ std::vector<Light> lights(const Camera& camera, const ShadeSettings& settings) {
   };
   switch (settings.style) {
     case Style::kStudio:
+    case Style::kPlain:
       return {direction(kKeyDirection), direction(kFillDirection), direction(kRimDirection)};
     case Style::kBlinn:
       return {{settings.light.value_or(camera.eye)}};
@@ -99,7 +111,7 @@ Shader::Shader(const Camera& camera, std::span<const Appearance> appearances,
   p.rim = world_from_eye(kRimDirection);
 
   const ColorScheme scheme = effective_scheme(settings);
-  const auto decode = [&](Vec3f c) { return p.style == Style::kStudio ? linear(c) : c; };
+  const auto decode = [&](Vec3f c) { return is_linear(p.style) ? linear(c) : c; };
   p.top = decode(to_unit(scheme.background_top));
   p.bottom = decode(to_unit(scheme.background_bottom));
   const Vec3f material = decode(to_unit(scheme.front)), cut = decode(to_unit(scheme.back));
@@ -118,14 +130,17 @@ Shader::Shader(const Camera& camera, std::span<const Appearance> appearances,
 }
 
 template <class Place>
-void Shader::look(std::span<const Hit> hits, const Place& place, std::span<const uint8_t> shadows,
+void Shader::look(std::span<const Hit> hits, const Place& place, const Reaching& reaching,
                   SeenHits& seen) const {
-  WHITTLE_CHECK(shadows.empty() || shadows.size() == hits.size());
+  const auto copy = [&](const auto& from, auto& to) {
+    WHITTLE_CHECK(from.empty() || from.size() == hits.size());
+    if (from.empty()) return;
+    to.assign(hits.size() + kMostFloatLanes, 0);
+    std::ranges::copy(from, to.begin());
+  };
   seen.hits = hits;
-  if (!shadows.empty()) {
-    seen.shadows.assign(hits.size() + kMostFloatLanes, 0);
-    std::ranges::copy(shadows, seen.shadows.begin());
-  }
+  copy(reaching.shadows, seen.shadows);
+  copy(reaching.openness, seen.openness);
   if (cut_faces_ == nullptr) return;
   seen.looks.resize(hits.size() + kMostFloatLanes);
   std::fill(seen.looks.begin() + std::ptrdiff_t(hits.size()), seen.looks.end(), 0);
@@ -142,14 +157,14 @@ void Shader::look(std::span<const Hit> hits, const Place& place, std::span<const
 void Shader::row(std::span<const Hit> hits, std::span<const uint8_t> shadows, int y, SeenHits& seen,
                  uint8_t* rgba) const {
   const auto place = [y](size_t x) { return PixelPosition{float(x) + 0.5f, float(y) + 0.5f}; };
-  look(hits, place, shadows, seen);
+  look(hits, place, {shadows, {}}, seen);
   shade_row(parameters_, seen, y, rgba);
 }
 
 void Shader::samples(std::span<const Hit> hits, std::span<const PixelPosition> places,
-                     std::span<const uint8_t> shadows, SeenHits& seen, Colors& colors) const {
+                     const Reaching& reaching, SeenHits& seen, Colors& colors) const {
   look(
-      hits, [&](size_t i) { return places[i]; }, shadows, seen);
+      hits, [&](size_t i) { return places[i]; }, reaching, seen);
   shade_samples(parameters_, seen, places, colors);
 }
 

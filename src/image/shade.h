@@ -1,8 +1,8 @@
 // From facts to colours. Shading never changes a hit, and there is one arithmetic that colours one,
 // used for pictures and antialiasing alike: shade_lanes.cpp.
 //
-// Three styles: whittle's own studio; the paper's Blinn (Romeiro, Velho, de Figueiredo 2008,
-// algorithm 4); and OpenSCAD's look, reproduced to the 8-bit value.
+// Four styles: whittle's own studio (image/studio.h) and plain; the paper's Blinn (Romeiro, Velho,
+// de Figueiredo 2008, algorithm 4); and OpenSCAD's look, reproduced to the 8-bit value.
 #pragma once
 
 #include <optional>
@@ -34,9 +34,18 @@ struct ShadeSettings {
   std::optional<uint32_t> lone_primitive;
   /// The model is a drawing: it has the scheme's colour for those, in kOpenscad without any light.
   bool is_drawing = false;
-  /// kStudio, kBlinn: lights reach only what they see. Then the studio's key light has sharp edges.
+  /// Not kOpenscad: lights reach only what they see. Then the key light has sharp edges.
   bool shadows = false;
-  Box casters;  ///< with shadows: finite, holds all that casts them
+  Box casters;                       ///< with shadows: finite, holds all that casts them
+  Quality quality = Quality::kGood;  ///< kStudio
+  bool ground = true;                ///< kStudio: what is seen casts a soft shadow below it
+  Box solid;  ///< kStudio: the solid's; not finite or empty: it has no ground, nothing is hidden
+};
+
+/// What reaches hits: an entry each, or none at all where all of it does.
+struct Reaching {
+  std::span<const uint8_t> shadows{};  ///< bit k: light k does not
+  std::span<const float> openness{};   ///< kStudio: the share of the surroundings that does
 };
 
 struct Light {
@@ -56,8 +65,8 @@ ColorScheme effective_scheme(const ShadeSettings& settings);
 Vec3f base_color(const Appearance& appearance, const ColorScheme& scheme);
 
 /// Colours hits of one model seen by one camera. Colours are in the style's averaging space: linear
-/// light for kStudio, display values for the others; 1 is white, more is clipped when stored.
-/// Thread-safe after construction.
+/// light for kStudio and kPlain, display values for the others; 1 is white, more is clipped when
+/// stored. Thread-safe after construction.
 class Shader {
  public:
   /// `appearances` is indexed by id; ids beyond it look like uncoloured material. Alpha of color()
@@ -72,14 +81,14 @@ class Shader {
   /// The colours of hits, or of the background, seen through as many picture positions. Alpha is 1,
   /// or 0 where nothing is hit and no background is wanted. `seen` is scratch space.
   void samples(std::span<const Hit> hits, std::span<const PixelPosition> places,
-               std::span<const uint8_t> shadows, SeenHits& seen, Colors& colors) const;
+               const Reaching& reaching, SeenHits& seen, Colors& colors) const;
   /// Writes colours as four bytes each.
   void store(const Colors& colors, uint8_t* rgba) const;
 
  private:
   /// Picture position of hit i: place(i).
   template <class Place>
-  void look(std::span<const Hit> hits, const Place& place, std::span<const uint8_t> shadows,
+  void look(std::span<const Hit> hits, const Place& place, const Reaching& reaching,
             SeenHits& seen) const;
 
   Camera camera_;

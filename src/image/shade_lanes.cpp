@@ -19,7 +19,7 @@
 namespace whittle {
 namespace {
 
-// The studio's colours, in linear light.
+// The plain style's colours, in linear light.
 constexpr Vec3f kKeyColor{0.82f, 0.80f, 0.77f}, kFillColor{0.11f, 0.12f, 0.14f};
 constexpr Vec3f kRimColor{0.20f, 0.21f, 0.23f};
 constexpr Vec3f kSkyColor{0.29f, 0.305f, 0.33f}, kGroundColor{0.11f, 0.105f, 0.10f};
@@ -28,6 +28,17 @@ constexpr float kKeyWrap = 0.15f;
 /// Reflection of a dielectric such as plastic, seen straight and at grazing angles.
 constexpr float kReflectance = 0.04f, kGrazingReflectance = 0.35f;
 constexpr float kHighlight = 0.16f;
+
+/// The studio's: large lights, so that they reach far round a corner, and much light from all
+/// sides.
+struct StudioLight {
+  static constexpr Vec3f kKey{0.50f, 0.49f, 0.475f}, kFill{0.10f, 0.108f, 0.12f};
+  static constexpr Vec3f kRim{0.15f, 0.155f, 0.165f};
+  static constexpr Vec3f kSky{0.45f, 0.46f, 0.475f}, kGround{0.20f, 0.195f, 0.19f};
+  static constexpr float kWrap = 0.3f;
+  static constexpr float kReflectance = 0.035f, kGrazingReflectance = 0.25f;
+  static constexpr float kHighlight = 0.10f;
+};
 
 }  // namespace
 }  // namespace whittle
@@ -45,6 +56,7 @@ struct Seen {
   Real3 normal, base;
   Real distance, px, py;
   Word shadows;
+  Real openness;
 };
 
 /// 0 where a light of that bit does not reach.
@@ -80,7 +92,7 @@ struct Blinn {
 
 // A key, a fill and a rim light and a sky above a ground, over a smooth dielectric that mirrors sky
 // and ground a little, more at grazing angles.
-struct Studio {
+struct Plain {
   static HWY_INLINE Real3 color(const ShadeParameters& p, const Seen& s) {
     const Real3 d = ray_direction(p.rays, s.px, s.py);
     Real n_d = dot(s.normal, d);
@@ -115,6 +127,71 @@ struct Studio {
   }
 };
 
+// The same lights, larger, where the surroundings are seen only as far as nothing stands before
+// them.
+struct Studio {
+  using L = StudioLight;
+
+  static HWY_INLINE Real3 color(const ShadeParameters& p, const Seen& s) {
+    const Real3 d = ray_direction(p.rays, s.px, s.py);
+    Real n_d = dot(s.normal, d);
+    const auto inner = hn::Gt(n_d, set(0));
+    const Real3 n = select(inner, negate(s.normal), s.normal);
+    n_d = hn::IfThenElse(inner, hn::Neg(n_d), n_d);
+
+    const float wrap = p.has_shadows ? 0 : L::kWrap;
+    const Real key =
+        where_lit(s, 1, positive(hn::Div(hn::Add(dot(n, set(p.key)), set(wrap)), set(1 + wrap))));
+    const Real fill = where_lit(s, 2, positive(dot(n, set(p.fill))));
+    const Real rim = where_lit(s, 4, positive(dot(n, set(p.rim))));
+    // A large light is hidden by less than what hides all surroundings.
+    const Real hidden = hn::Sub(set(1), s.openness);
+    const Real seen =
+        hn::Sub(set(1), hn::Mul(hidden, hn::Add(set(0.4f), hn::Mul(set(0.6f), hidden))));
+    Real3 direct = scale(set(L::kKey), key);
+    direct = add(direct, scale(set(L::kFill), fill));
+    direct = add(direct, scale(set(L::kRim), rim));
+    const Real3 around = surroundings(n.z);
+    const Real3 diffuse = {lit(s.base.x, direct.x, around.x, seen, s.openness),
+                           lit(s.base.y, direct.y, around.y, seen, s.openness),
+                           lit(s.base.z, direct.z, around.z, seen, s.openness)};
+
+    const Real3 mirrored = sub(d, scale(n, hn::Mul(set(2), n_d)));
+    const Real grazing = hn::Add(set(1), n_d), grazing2 = hn::Mul(grazing, grazing);
+    const Real growth =
+        hn::Mul(hn::Mul(hn::Mul(set(L::kGrazingReflectance - L::kReflectance), grazing2), grazing2),
+                grazing);
+    const Real reflectance = hn::Add(set(L::kReflectance), growth);
+    Real highlight = where_lit(s, 1, positive(dot(mirrored, set(p.key))));
+    for (int i = 0; i < 5; ++i) highlight = hn::Mul(highlight, highlight);
+    const Real3 reflected = scale(add(scale(surroundings(mirrored.z), hn::Mul(set(2), reflectance)),
+                                      scale(set(L::kKey), hn::Mul(highlight, set(L::kHighlight)))),
+                                  hn::Mul(s.openness, s.openness));
+    return add(scale(diffuse, hn::Sub(set(1), reflectance)), reflected);
+  }
+
+  // What light a surface of that albedo gets from its surroundings if it sees this share of them,
+  // and what hides the rest is of the same colour and lit alike. A cubic fit of what bounces many
+  // times between them: Jimenez, Wu, Pesce and Jarabo, "Practical realtime strategies for accurate
+  // indirect occlusion" (2016), section 5.
+  static HWY_INLINE Real bounced(Real albedo, Real openness) {
+    const auto line = [&](float slope, float at_0)
+                          HWY_ATTR { return hn::Add(hn::Mul(set(slope), albedo), set(at_0)); };
+    const Real cubic = hn::Mul(hn::Add(hn::Mul(hn::Add(hn::Mul(line(2.0404f, -0.3324f), openness),
+                                                       line(-4.7951f, 0.6417f)),
+                                               openness),
+                                       line(2.7552f, 0.6903f)),
+                               openness);
+    return hn::Max(openness, cubic);
+  }
+  static HWY_INLINE Real lit(Real base, Real direct, Real around, Real seen, Real openness) {
+    return hn::Mul(base, hn::Add(hn::Mul(direct, seen), hn::Mul(around, bounced(base, openness))));
+  }
+  static HWY_INLINE Real3 surroundings(Real up) {
+    return mix(set(L::kGround), set(L::kSky), hn::Add(set(0.5f), hn::Mul(set(0.5f), up)));
+  }
+};
+
 HWY_INLINE Real3 background(const ShadeParameters& p, Real py) {
   return mix(set(p.top), set(p.bottom), hn::Mul(py, set(p.inverse_height)));
 }
@@ -126,6 +203,11 @@ HWY_INLINE Word load_looks(const ShadeParameters& p, const SeenHits& seen, size_
 /// And which lights do not reach them.
 HWY_INLINE Word load_shadows(const SeenHits& seen, size_t i) {
   return seen.shadows.empty() ? hn::Zero(DU()) : hn::LoadU(DU(), &seen.shadows[i]);
+}
+
+/// And how much of their surroundings they see.
+HWY_INLINE Real load_openness(const SeenHits& seen, size_t i) {
+  return seen.openness.empty() ? set(1) : hn::LoadU(D(), &seen.openness[i]);
 }
 
 /// The base colours. Neighbours mostly have one, and looking up many takes longer.
@@ -141,9 +223,10 @@ HWY_INLINE Real3 load_materials(const ShadeParameters& p, Word look) {
 
 /// The surfaces' colours; anything where nothing is hit.
 template <class Look>
-HWY_INLINE Real3 surface(const ShadeParameters& p, const HitLanes& hits, Word look, Word shadow,
-                         Real px, Real py) {
-  return Look::color(p, {hits.normal, load_materials(p, look), hits.distance, px, py, shadow});
+HWY_INLINE Real3 surface(const ShadeParameters& p, const SeenHits& seen, size_t i,
+                         const HitLanes& hits, Word look, Real px, Real py) {
+  return Look::color(p, {hits.normal, load_materials(p, look), hits.distance, px, py,
+                         load_shadows(seen, i), load_openness(seen, i)});
 }
 
 /// Values in 0..1 as 8 bits, rounded; what lies outside is clamped and NaN is 0.
@@ -154,7 +237,7 @@ HWY_INLINE Int to_steps(Real v, float steps) {
 
 /// A component in its byte.
 HWY_INLINE Int encode(const ShadeParameters& p, Real v) {
-  if (p.style != Style::kStudio) return to_steps(v, 255);
+  if (!is_linear(p.style)) return to_steps(v, 255);
   const auto* table = reinterpret_cast<const int32_t*>(p.srgb->data());
   return hn::And(hn::GatherOffset(DI(), table, to_steps(v, kSrgbSteps)), hn::Set(DI(), 255));
 }
@@ -190,7 +273,7 @@ void row(const ShadeParameters& p, const SeenHits& seen, int y, uint8_t* rgba) {
     Word pixels = behind;
     if (!hn::AllTrue(DU(), missed)) {
       const Real px = hn::Add(hn::Iota(D(), float(i)), set(0.5f));
-      const Real3 color = surface<Look>(p, hits, look, load_shadows(seen, i), px, py);
+      const Real3 color = surface<Look>(p, seen, i, hits, look, px, py);
       pixels = hn::IfThenElse(missed, behind, pack(p, color, set(1)));
     }
     store(pixels, count, rgba + 4 * i);
@@ -209,8 +292,8 @@ void samples(const ShadeParameters& p, const SeenHits& seen, std::span<const Pix
     const HitLanes hits = load_hits(&seen.hits[i], count);
     const Word look = load_looks(p, seen, i, hits.id);
     const auto missed = hn::RebindMask(D(), hn::Eq(look, hn::Zero(DU())));
-    const Real3 color = select(missed, background(p, py),
-                               surface<Look>(p, hits, look, load_shadows(seen, i), px, py));
+    const Real3 color =
+        select(missed, background(p, py), surface<Look>(p, seen, i, hits, look, px, py));
     hn::StoreU(color.x, D(), &colors.r[i]);
     hn::StoreU(color.y, D(), &colors.g[i]);
     hn::StoreU(color.z, D(), &colors.b[i]);
@@ -222,6 +305,8 @@ void row_in_lanes(const ShadeParameters& p, const SeenHits& seen, int y, uint8_t
   switch (p.style) {
     case Style::kStudio:
       return row<Studio>(p, seen, y, rgba);
+    case Style::kPlain:
+      return row<Plain>(p, seen, y, rgba);
     case Style::kBlinn:
       return row<Blinn>(p, seen, y, rgba);
     case Style::kOpenscad:
@@ -234,6 +319,8 @@ void samples_in_lanes(const ShadeParameters& p, const SeenHits& seen,
   switch (p.style) {
     case Style::kStudio:
       return samples<Studio>(p, seen, places, colors);
+    case Style::kPlain:
+      return samples<Plain>(p, seen, places, colors);
     case Style::kBlinn:
       return samples<Blinn>(p, seen, places, colors);
     case Style::kOpenscad:

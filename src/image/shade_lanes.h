@@ -25,9 +25,9 @@ struct ShadeParameters {
   Vec3f light_from_eye;        ///< kBlinn
   Vec3f headlight;             ///< kOpenscad: one of its two opposite directions; zero: it is off
   float ambient = 0.2f;        ///< kOpenscad: what reaches every surface
-  Vec3f key, fill, rim;        ///< kStudio: unit, from the surface to the light
+  Vec3f key, fill, rim;        ///< kStudio, kPlain: unit, from the surface to the light
   Vec3f top, bottom;           ///< background
-  bool has_shadows = false;    ///< kStudio: the key light is a point
+  bool has_shadows = false;    ///< kStudio, kPlain: the key light is a point
   bool has_background = true;  ///< false: the background's pixels are four zeros
   const SrgbTable* srgb = &srgb_table();
   std::vector<Vec3f> materials;  ///< base colours, by id
@@ -35,12 +35,14 @@ struct ShadeParameters {
 };
 
 /// Hits. `looks`: the material of each, where the id alone does not tell it (0 is background).
-/// `shadows`: the lights that do not reach each, a bit a light (kStudio: 1 key, 2 fill, 4 rim;
-/// kBlinn: 1). Both are empty if they are not needed. Behind the last look and shadow are zeros, so
-/// that lanes can be loaded past the end.
+/// `shadows`: the lights that do not reach each, a bit a light (kStudio, kPlain: 1 key, 2 fill, 4
+/// rim; kBlinn: 1). `openness`: kStudio: the share of its surroundings that each sees. All are
+/// empty if they are not needed. Behind the last of each are zeros, so that lanes can be loaded
+/// past the end.
 struct SeenHits {
   std::span<const Hit> hits;
   std::vector<uint32_t> looks, shadows;  ///< or empty
+  std::vector<float> openness;           ///< or empty
 };
 
 /// Colours in the style's averaging space (see Shader), an array a component. Behind the last is

@@ -72,7 +72,7 @@ ShadeSettings styled(Style style) {
   return settings;
 }
 
-constexpr Style kAllStyles[] = {Style::kStudio, Style::kBlinn, Style::kOpenscad};
+constexpr Style kAllStyles[] = {Style::kStudio, Style::kPlain, Style::kBlinn, Style::kOpenscad};
 
 TEST(Shade, OpenscadValuesAreThoseMeasuredInOpenscad) {
   const auto face = [](Vec3f n) {
@@ -123,7 +123,7 @@ TEST(Shade, OpenscadPaintsADrawingInOneColorThatNoLightFallsOn) {
 }
 
 TEST(Shade, OtherStylesKeepTheColorsOfADrawing) {
-  for (const Style style : {Style::kStudio, Style::kBlinn}) {
+  for (const Style style : {Style::kStudio, Style::kPlain, Style::kBlinn}) {
     const auto seen = [&](uint32_t id, bool is_drawing) {
       ShadeSettings settings = styled(style);
       settings.is_drawing = is_drawing;
@@ -242,8 +242,8 @@ TEST(Shade, StudioHonoursColors) {
   EXPECT_GT(c.r, c.b + 60);
   EXPECT_GT(c.b, c.g + 40);
   const Hit material{30, 1, {0, 0, 1}}, cut{30, 2, {0, 0, 1}};
-  EXPECT_GT(distance(shade_one(material, default_camera(), kAppearances, styled(Style::kStudio)),
-                     shade_one(cut, default_camera(), kAppearances, styled(Style::kStudio))),
+  EXPECT_GT(distance(shade_one(material, default_camera(), kAppearances, styled(Style::kPlain)),
+                     shade_one(cut, default_camera(), kAppearances, styled(Style::kPlain))),
             20);
 }
 

@@ -7,6 +7,8 @@ namespace whittle {
 namespace {
 
 constexpr size_t kTargetsPerTask = 4096;
+/// Each batch of hits is looked at from every light; many at a time, for backends that draw.
+constexpr size_t kShadowsPerBatch = size_t(1) << 20;
 
 Vec3 to_double(Vec3f v) {
   return {double(v.x), double(v.y), double(v.z)};
@@ -78,6 +80,41 @@ Ray Shadows::ray_to(Vec3 point, const Light& light) const {
   if (!light.is_direction) return {light.at, normalize(point - light.at), 0};
   const Vec3 from = point + light.at * dot(casters_.center() - point, light.at);
   return {from, light.at * -1, -casters_.diagonal()};
+}
+
+std::vector<uint8_t> Shadows::of_frame(const Frame& frame) {
+  std::vector<uint8_t> shadows, some;
+  shadows.reserve(frame.hits.size());
+  std::vector<PixelPosition> places;
+  const size_t width = size_t(frame.width);
+  const size_t rows = std::max<size_t>(1, kShadowsPerBatch / width);
+  for (size_t y = 0; y < size_t(frame.height); y += rows) {
+    const size_t last = std::min(y + rows, size_t(frame.height));
+    places.clear();
+    for (size_t row = y; row < last; ++row)
+      for (size_t x = 0; x < width; ++x) places.push_back({float(x) + 0.5f, float(row) + 0.5f});
+    find(std::span(frame.hits).subspan(y * width, places.size()), places, some);
+    shadows.insert(shadows.end(), some.begin(), some.end());
+  }
+  return shadows;
+}
+
+void add_shadow_edges(const std::vector<uint8_t>& shadows, size_t width,
+                      std::vector<uint8_t>& mask) {
+  const size_t height = shadows.size() / width;
+  const auto compare = [&](size_t a, size_t b) {
+    if (shadows[a] != shadows[b]) mask[a] = mask[b] = 1;
+  };
+  for (size_t y = 0; y < height; ++y) {
+    for (size_t x = 0; x < width; ++x) {
+      const size_t at = y * width + x;
+      if (x + 1 < width) compare(at, at + 1);
+      if (y + 1 == height) continue;
+      compare(at, at + width);
+      if (x > 0) compare(at, at + width - 1);
+      if (x + 1 < width) compare(at, at + width + 1);
+    }
+  }
 }
 
 }  // namespace whittle

@@ -18,12 +18,19 @@ namespace whittle {
 /// hit) in front of it, divided by the cosine at which the light falls: docs/numerics.md.
 inline constexpr double kShadowTolerance = 1.0 / (1 << 18);
 
+/// Adds to the mask the pixels that are lit otherwise than one of their eight neighbours.
+void add_shadow_edges(const std::vector<uint8_t>& shadows, size_t width,
+                      std::vector<uint8_t>& mask);
+
 class Shadows {
  public:
   /// Precondition: settings.casters is finite or empty. The tracer, and the status of it, are the
   /// caller's.
   Shadows(Tracer& tracer, const Camera& camera, const ShadeSettings& settings,
           const Workers& workers);
+
+  /// find() for every pixel of a frame.
+  std::vector<uint8_t> of_frame(const Frame& frame);
 
   /// For hits seen through as many places: bit k says that light k of lights() falls on the side
   /// that is seen, but something stands before it. Where a light comes from behind the bit is 0.

@@ -11,4 +11,9 @@ namespace whittle {
 inline constexpr float kBlinnAmbient = 0.2f, kBlinnDiffuse = 0.7f, kBlinnSpecular = 0.3f;
 inline constexpr int kBlinnExponent = 16;
 
+/// Whether a style's colours are linear light until they are stored; else they are display values.
+constexpr bool is_linear(Style style) {
+  return style == Style::kStudio || style == Style::kPlain;
+}
+
 }  // namespace whittle

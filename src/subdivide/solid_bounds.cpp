@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <utility>
@@ -48,18 +49,22 @@ class Program {
   mutable std::vector<Constraint> moved_;
 };
 
-/// The search in one direction, +axis or -axis.
+/// The search in one direction. One along an axis can cut cells off where they are near enough; in
+/// any other they are only put back in the row.
 class Search {
  public:
-  Search(const Scene& scene, const UnitBoxes& boxes, const FirstCells& first, int axis, int sign,
+  Search(const Scene& scene, const UnitBoxes& boxes, const FirstCells& first, Vec3 direction,
          double accuracy)
       : scene_(scene),
         first_(first),
-        axis_(axis),
-        sign_(sign),
+        objective_(direction),
         accuracy_(accuracy),
         simplifier_(scene, boxes, 0) {
-    objective_[axis] = sign;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::fabs(direction[axis]) != 1 || length(direction) != 1) continue;
+      axis_ = axis;
+      sign_ = direction[axis] > 0 ? 1 : -1;
+    }
   }
 
   Farthest run(size_t most_cells) {
@@ -96,8 +101,12 @@ class Search {
     std::vector<uint32_t> operands;  ///< tokens whose subtrees must hold too
   };
 
-  double reach_of(Vec3 p) const { return sign_ * p[axis_]; }
-  double reach_of(const Box& box) const { return sign_ > 0 ? box.hi[axis_] : -box.lo[axis_]; }
+  bool is_along_axis() const { return axis_ >= 0; }
+  double reach_of(Vec3 p) const { return is_along_axis() ? sign_ * p[axis_] : dot(objective_, p); }
+  double reach_of(const Box& box) const {
+    if (is_along_axis()) return sign_ > 0 ? box.hi[axis_] : -box.lo[axis_];
+    return dot(objective_, box.center()) + dot(abs(objective_), box.size()) / 2;
+  }
   double depth_of(const Box& box) const { return sign_ > 0 ? box.lo[axis_] : -box.hi[axis_]; }
 
   /// Simplifies a formula for a box. What is all solid is noted.
@@ -121,14 +130,16 @@ class Search {
     return true;
   }
 
-  /// Simplifies `around` for the box and opens it, unless it is decided.
-  void open_child(const Formula& around, const Box& box) {
+  /// Simplifies `around` for the box and opens it, unless it is decided. It is known not to reach
+  /// farther than `most`.
+  void open_child(const Formula& around, const Box& box, double most) {
     tokens_ += around.size();
     Formula formula;
     const Truth truth = simplify(around, box, formula);
     if (truth != Truth::kVaries) return;
     const Simplifier::Size size = simplifier_.size_of(formula);
-    open_.push_back({reach_of(box), order_++, box, std::move(formula), size, {}, 0});
+    open_.push_back(
+        {std::min(most, reach_of(box)), order_++, box, std::move(formula), size, {}, 0});
     std::ranges::push_heap(open_, comes_later);
   }
 
@@ -146,7 +157,7 @@ class Search {
   void look_at(Cell cell) {
     // Only what lies beyond the best point counts.
     const double needed = best_ + accuracy_ / 2;
-    if (depth_of(cell.box) < needed) {
+    if (is_along_axis() && depth_of(cell.box) < needed) {
       (sign_ > 0 ? cell.box.lo : cell.box.hi)[axis_] = sign_ * needed;
       tokens_ += cell.formula.size();
       Formula formula;
@@ -160,11 +171,13 @@ class Search {
       return;
     }
     int split_axis = longest_axis(cell.box);
+    double most = cell.reach;
     if (!is_large(cell.size) && make_faces_of(cell)) {
       if (cell.faces.empty()) return;
       const double reach = reach_of_terms(cell);
       if (reach <= best_ + accuracy_) return;
-      if (reach < reach_of(cell.box)) {
+      most = std::min(most, reach);
+      if (is_along_axis() && reach < reach_of(cell.box)) {
         (sign_ > 0 ? cell.box.hi : cell.box.lo)[axis_] = sign_ * reach;
         split_axis = longest_axis(cell.box);
       }
@@ -172,10 +185,10 @@ class Search {
     }
     if (max_component(cell.box.size()) <= accuracy_) {
       // Too small to tell, and too small to matter.
-      best_ = std::max(best_, reach_of(cell.box));
+      best_ = std::max(best_, std::min(most, reach_of(cell.box)));
       return;
     }
-    for (const Box& part : split(cell.box, split_axis)) open_child(cell.formula, part);
+    for (const Box& part : split(cell.box, split_axis)) open_child(cell.formula, part, most);
   }
 
   /// The axis along which the surfaces bend most in the cell: splitting it brings them nearest to
@@ -319,8 +332,8 @@ class Search {
 
   const Scene& scene_;
   const FirstCells& first_;
-  int axis_, sign_;
-  Vec3 objective_{};
+  Vec3 objective_;
+  int axis_ = -1, sign_ = 1;  ///< of the axis that it goes along; -1: none
   double accuracy_;
   Simplifier simplifier_;
   std::vector<Cell> open_;  ///< a heap: the cell that reaches farthest is in front
@@ -333,16 +346,26 @@ class Search {
   std::vector<std::pair<double, const Tangent*>> near_;  ///< with the distance
 };
 
-/// The solid's box within `start`, local, each side wrong by at most `accuracy`.
-SolidBounds search_all(const Scene& scene, const UnitBoxes& boxes, const Box& start,
-                       double accuracy, size_t most_cells, const Workers& workers) {
+/// The search in each of some directions, of unit length, within `start`, local.
+std::vector<Farthest> search_all(const Scene& scene, const UnitBoxes& boxes, const Box& start,
+                                 std::span<const Vec3> directions, double accuracy,
+                                 size_t most_cells, const Workers& workers) {
   const FirstCells first_cells(scene, boxes, start, workers);
-  std::array<Farthest, 6> found;
+  std::vector<Farthest> found(directions.size());
   workers.for_parts(found.size(), 1, [&](size_t first, size_t last, size_t) {
     for (size_t i = first; i < last; ++i)
-      found[i] =
-          Search(scene, boxes, first_cells, int(i / 2), i % 2 ? 1 : -1, accuracy).run(most_cells);
+      found[i] = Search(scene, boxes, first_cells, directions[i], accuracy).run(most_cells);
   });
+  return found;
+}
+
+/// The solid's box within `start`, local, each side wrong by at most `accuracy`.
+SolidBounds box_within(const Scene& scene, const UnitBoxes& boxes, const Box& start,
+                       double accuracy, size_t most_cells, const Workers& workers) {
+  constexpr std::array<Vec3, 6> kSides = {
+      {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
+  const std::vector<Farthest> found =
+      search_all(scene, boxes, start, kSides, accuracy, most_cells, workers);
   SolidBounds result;
   for (int axis = 0; axis < 3; ++axis) {
     const Farthest &low = found[size_t(2 * axis)], &high = found[size_t(2 * axis + 1)];
@@ -367,7 +390,7 @@ SolidBounds solid_bounds(const Scene& scene, int threads, size_t most_cells) {
   for (int round = 0; round < kMostRounds; ++round) {
     const double edge = max_component(start.size());
     const double accuracy = kBoundsAccuracy * kMuchSmaller * edge;
-    const SolidBounds found = search_all(scene, boxes, start, accuracy, most_cells, workers);
+    const SolidBounds found = box_within(scene, boxes, start, accuracy, most_cells, workers);
     if (found.box.is_empty() && round > 0) break;
     result = found;
     if (found.box.is_empty()) return result;
@@ -384,6 +407,25 @@ SolidBounds solid_bounds(const Scene& scene, int threads, size_t most_cells) {
   }
   result.box = {result.box.lo + scene.origin, result.box.hi + scene.origin};
   return result;
+}
+
+std::vector<double> solid_reach(const Scene& scene, const Box& box,
+                                std::span<const Vec3> directions, int threads, size_t most_cells) {
+  std::vector<double> reach(directions.size(), -kInfinity);
+  if (scene.region.is_empty() || box.is_empty()) return reach;
+  const Workers workers(threads);
+  const UnitBoxes boxes(scene, &workers);
+  const double edge = max_component(box.size()), accuracy = kReachAccuracy * edge;
+  const Vec3 margin = Vec3{1, 1, 1} * (kBoundsAccuracy * edge);
+  const Box start =
+      intersect({box.lo - scene.origin - margin, box.hi - scene.origin + margin}, scene.region);
+  std::vector<Vec3> unit;
+  for (const Vec3 direction : directions) unit.push_back(normalize(direction));
+  const std::vector<Farthest> found =
+      search_all(scene, boxes, start, unit, accuracy, most_cells, workers);
+  for (size_t i = 0; i < found.size(); ++i)
+    reach[i] = found[i].reach * length(directions[i]) + dot(directions[i], scene.origin);
+  return reach;
 }
 
 }  // namespace whittle

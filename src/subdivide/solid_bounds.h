@@ -8,6 +8,8 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <vector>
 
 #include "lower/scene.h"
 
@@ -32,5 +34,16 @@ inline constexpr size_t kBoundsCells = size_t(1) << 14;
 /// possible: the box is never too small by more than its accuracy. `threads` 0: all; the result
 /// does not depend on it.
 SolidBounds solid_bounds(const Scene& scene, int threads, size_t most_cells = kBoundsCells);
+
+/// How exact: the reach is wrong by at most this share of the box's longest edge, times the
+/// direction's length.
+inline constexpr double kReachAccuracy = 1e-4;
+
+/// How far the scene's solid reaches in each of some directions: its largest direction . p.
+/// Precondition: `box` is finite and holds the solid; world. An empty one gives -infinity. Bounded
+/// and reproducible as solid_bounds().
+std::vector<double> solid_reach(const Scene& scene, const Box& box,
+                                std::span<const Vec3> directions, int threads,
+                                size_t most_cells = kBoundsCells);
 
 }  // namespace whittle

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/rotation.h"
 #include "lower/evaluate.h"
 #include "lower/lower.h"
 #include "subdivide/leaf.h"
@@ -200,6 +201,55 @@ TEST(SolidBounds, DoesNotDependOnTheNumberOfThreads) {
     const Scene scene = *lower(model_of(random_tree(seed, {.primitives = 40})));
     EXPECT_EQ(solid_bounds(scene, 1).box, solid_bounds(scene, 4).box) << seed;
   }
+}
+
+double reach_of(const std::string& text, Vec3 direction) {
+  const Scene scene = *lower(model_of(text));
+  return solid_reach(scene, solid_bounds(scene, 1).box, std::span(&direction, 1), 1).front();
+}
+
+TEST(SolidReach, IsKnownOfSimpleBodies) {
+  const Vec3 d{1, -2, 3};
+  const double length_of_d = length(d);
+  EXPECT_NEAR(reach_of("cube([10, 20, 30]);", d), 10 + 90, 0.01);
+  EXPECT_NEAR(reach_of("translate([1, 2, 3]) sphere(10);", d), 1 - 4 + 9 + 10 * length_of_d, 0.01);
+  EXPECT_NEAR(reach_of("cylinder(h = 10, r = 4);", d), 30 + 4 * std::hypot(1, 2), 0.01);
+  EXPECT_NEAR(reach_of("cylinder(h = 10, r = 4);", {0, 0, -2}), 0, 0.01) << "along an axis";
+}
+
+TEST(SolidReach, IsThatOfWhatIsLeft) {
+  // A corner cut off by a plane through the middles of three edges.
+  EXPECT_NEAR(reach_of("intersection() { cube(10); halfspace(n = [1, 1, 1], d = 25); }", {1, 1, 1}),
+              25, 0.01);
+  // A ball without its upper half.
+  EXPECT_NEAR(
+      reach_of("difference() { sphere(10); translate([-20, -20, 0]) cube(40); }", {1, 0, 1}), 10,
+      0.02);
+}
+
+TEST(SolidReach, InTurnedDirectionsIsTheBoxOfTheTurnedBody) {
+  const std::string part =
+      "difference() { union() { cube([30, 20, 8]); translate([15, 10, 8]) sphere(7); }"
+      " translate([15, 10, -1]) cylinder(h = 40, r = 3); translate([-1, -1, 5]) cube([9, 9, 9]); }";
+  const SolidBounds turned = bounds_of("rotate([30, 40, 50]) {" + part + "}");
+  const Affine turn = rotation(50, {0, 0, 1}) * rotation(40, {0, 1, 0}) * rotation(30, {1, 0, 0});
+  for (int axis = 0; axis < 3; ++axis) {
+    // What lies along an axis once it is turned.
+    Vec3 along;
+    for (int k = 0; k < 3; ++k) {
+      Vec3 unit;
+      unit[k] = 1;
+      along[k] = turn.vector(unit)[axis];
+    }
+    EXPECT_NEAR(reach_of(part, along), turned.box.hi[axis], 1e-3 * 30) << axis;
+    EXPECT_NEAR(-reach_of(part, along * -1), turned.box.lo[axis], 1e-3 * 30) << axis;
+  }
+}
+
+TEST(SolidReach, OfNothingIsNothing) {
+  const Scene scene = *lower(model_of("difference() { cube(10); cube(10); }"));
+  const Vec3 up{0, 0, 1};
+  EXPECT_EQ(solid_reach(scene, {}, std::span(&up, 1), 1).front(), -kInfinity);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "trace/view.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/degrees.h"
@@ -56,13 +57,45 @@ Vec3 gimbal_rotation(Vec3 forward) {
           std::atan2(-forward.x, forward.y) * degrees};
 }
 
+double tangent_of(double degrees) {
+  return std::tan(degrees * (std::acos(-1.0) / 180));
+}
+
+/// Moves the eye to where the solid fills the picture, without turning it.
+///
+/// The four planes through the eye that bound the part of the picture to be filled must each have
+/// the solid on their inner side, and touch it. Where the planes are that touch it, `reach` says;
+/// two that face one another meet in a line, and the eye stands on the one that is farther back.
+void fit_tightly(const ViewOptions& options, double fov_degrees, const Box& box, bool centers,
+                 const Reach& reach, Pose& pose) {
+  const double aspect = double(options.width) / double(options.height);
+  const double slope_y = kTightFill * tangent_of(fov_degrees / 2), slope_x = slope_y * aspect;
+  const Vec3 right = pose.right, up = pose.up, forward = pose.forward;
+  const double lean_x = options.orthographic ? 0 : slope_x;
+  const double lean_y = options.orthographic ? 0 : slope_y;
+  const auto [to_right, to_left, to_top, to_bottom] =
+      reach({right - forward * lean_x, right * -1 - forward * lean_x, up - forward * lean_y,
+             up * -1 - forward * lean_y});
+  // In the eye's axes.
+  const double x = centers ? (to_right - to_left) / 2 : dot(right, pose.target);
+  const double y = centers ? (to_top - to_bottom) / 2 : dot(up, pose.target);
+  const double back = std::max(std::max(to_right - x, to_left + x) / slope_x,
+                               std::max(to_top - y, to_bottom + y) / slope_y);
+  const double depth = dot(forward, centers ? box.center() : pose.target);
+  const double distance = options.orthographic ? back : depth + back;
+  if (!(distance > 0 && std::isfinite(distance))) return;
+  pose.distance = distance;
+  pose.target = right * x + up * y + forward * depth;
+}
+
 struct Framed {
   Pose pose;
   Vec3 rotation_degrees;
   double fov_degrees = 0;
 };
 
-Framed frame(const ViewOptions& options, const FileView& file, const Box& framed_box) {
+Framed frame(const ViewOptions& options, const FileView& file, const Box& framed_box,
+             const Reach& reach) {
   const bool vector_given = options.eye || options.center;
   const bool camera_given = gives_camera(options);
   const bool file_given = !camera_given && gives_view(file);
@@ -87,7 +120,10 @@ Framed frame(const ViewOptions& options, const FileView& file, const Box& framed
 
   double fov = options.fov_degrees.value_or(said.fov_degrees.value_or(kDefaultFovDegrees));
   if (!(fov > 0 && fov < 180)) fov = kDefaultFovDegrees;
-  if (view_all && !framed_box.is_empty() && framed_box.is_finite()) {
+  const bool can_fit = view_all && !framed_box.is_empty() && framed_box.is_finite();
+  if (can_fit && options.tight) {
+    fit_tightly(options, fov, framed_box, auto_center, reach, pose);
+  } else if (can_fit) {
     if (auto_center) pose.target = framed_box.center();
     const double radius = length(framed_box.center() - pose.target) + framed_box.diagonal() / 2;
     if (radius > 0) pose.distance = radius / sin_degrees(fov / 2);
@@ -114,17 +150,22 @@ Status check_view(const ViewOptions& options) {
                "Camera distance must not be negative, unless the view of all replaces it"};
 }
 
-GimbalView gimbal_view(const ViewOptions& options, const FileView& file, const Box& framed_box) {
-  const Framed framed = frame(options, file, framed_box);
-  return {framed.pose.target, framed.rotation_degrees, framed.pose.distance, framed.fov_degrees};
+std::array<double, 4> box_reach(const Box& box, const Directions& directions) {
+  std::array<double, 4> reach;
+  std::ranges::transform(directions, reach.begin(), [&](Vec3 direction) {
+    double most = -kInfinity;
+    for (int i = 0; i < 8; ++i) most = std::max(most, dot(direction, box.corner(i)));
+    return most;
+  });
+  return reach;
 }
 
-Camera make_camera(const ViewOptions& options, const FileView& file, const Box& framed_box) {
+FramedView frame_view(const ViewOptions& options, const FileView& file, const Box& framed_box,
+                      const Reach& reach) {
   WHITTLE_CHECK(options.width > 0 && options.height > 0);
-  const Framed framed = frame(options, file, framed_box);
+  const Framed framed = frame(options, file, framed_box, reach);
   const Pose& pose = framed.pose;
-  const double fov = framed.fov_degrees;
-  const double tangent = std::tan(fov / 2 * (std::acos(-1.0) / 180));
+  const double tangent = tangent_of(framed.fov_degrees / 2);
   Camera camera;
   camera.right = pose.right;
   camera.up = pose.up;
@@ -135,7 +176,14 @@ Camera make_camera(const ViewOptions& options, const FileView& file, const Box& 
   camera.ortho_reach = options.orthographic ? kOrthographicReach * pose.distance : 0;
   camera.width = options.width;
   camera.height = options.height;
-  return camera;
+  return {camera, {pose.target, framed.rotation_degrees, pose.distance, framed.fov_degrees}};
+}
+
+Camera make_camera(const ViewOptions& options, const FileView& file, const Box& framed_box) {
+  const Reach reach = [&](const Directions& directions) {
+    return box_reach(framed_box, directions);
+  };
+  return frame_view(options, file, framed_box, reach).camera;
 }
 
 }  // namespace whittle

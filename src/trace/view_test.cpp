@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "trace/view_for_test.h"
@@ -192,7 +193,7 @@ TEST(View, ANegativeDistanceIsOnlyForViewAllToReplace) {
 
 TEST(View, IsToldInOpenscadsWords) {
   const ViewOptions given = view_of({1, 2, 3, 40, 0, 60, 70}, sized(8, 8));
-  const GimbalView same = gimbal_view(given, {}, {});
+  const GimbalView same = frame_view(given, {}, {}, {}).view;
   expect_near(same.target, {1, 2, 3});
   expect_near(same.rotation_degrees, {40, 0, 60});
   EXPECT_EQ(same.distance, 70);
@@ -201,7 +202,7 @@ TEST(View, IsToldInOpenscadsWords) {
   for (const CameraNumbers& numbers : std::vector<CameraNumbers>{
            {1, -2, 3, 4, 5, 6}, {0, 0, 9, 0, 0, -9}, {-5, -6, -7, 1, 1, 1}}) {
     const ViewOptions vector = view_of(numbers, sized(8, 8));
-    const GimbalView view = gimbal_view(vector, {}, {});
+    const GimbalView view = frame_view(vector, {}, {}, {}).view;
     ViewOptions angles = sized(8, 8);
     angles.target = view.target;
     angles.rotation_degrees = view.rotation_degrees;
@@ -211,6 +212,84 @@ TEST(View, IsToldInOpenscadsWords) {
     EXPECT_LT(length(a.right - b.right), 1e-12) << testing::PrintToString(numbers);
     EXPECT_LT(length(a.up - b.up), 1e-12) << testing::PrintToString(numbers);
   }
+}
+
+/// Where the corners of a box are seen, as shares of the picture from its middle.
+struct Extent {
+  double low_x = kInfinity, high_x = -kInfinity, low_y = kInfinity, high_y = -kInfinity;
+};
+Extent extent_of(const Camera& camera, const Box& box) {
+  Extent e;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 p = box.corner(i) - camera.eye;
+    const double scale = camera.orthographic ? 1 : dot(p, camera.forward);
+    const double y = dot(p, camera.up) / (scale * 2 * camera.half_height);
+    const double x = dot(p, camera.right) / (scale * 2 * camera.half_height) *
+                     double(camera.height) / double(camera.width);
+    e.low_x = std::min(e.low_x, x), e.high_x = std::max(e.high_x, x);
+    e.low_y = std::min(e.low_y, y), e.high_y = std::max(e.high_y, y);
+  }
+  return e;
+}
+
+RC_GTEST_PROP(View, TightFramingFillsItsShareOfTheSideThatIsFilledMost, ()) {
+  const auto number = [](int low, int high) { return *rc::gen::inRange(low, high) / 10.0; };
+  ViewOptions options = sized(*rc::gen::inRange(10, 400), *rc::gen::inRange(10, 400));
+  options.tight = options.view_all = options.auto_center = true;
+  options.orthographic = *rc::gen::arbitrary<bool>();
+  options.rotation_degrees = Vec3{number(-1800, 1800), number(-1800, 1800), number(-1800, 1800)};
+  options.fov_degrees = number(50, 900);
+  const Vec3 low{number(-900, 900), number(-900, 900), number(-900, 900)};
+  const Box box{low, low + Vec3{number(1, 500), number(1, 500), number(1, 500)}};
+  const Extent e = extent_of(make_camera(options, {}, box), box);
+  const double wide = e.high_x - e.low_x, tall = e.high_y - e.low_y;
+  RC_ASSERT(std::fabs(std::max(wide, tall) - kTightFill) < 1e-9);
+  // The side that is filled most is filled evenly, and nothing is outside on the other.
+  RC_ASSERT(std::fabs(wide > tall ? e.high_x + e.low_x : e.high_y + e.low_y) < 1e-9);
+  RC_ASSERT(std::max(e.high_x, -e.low_x) < kTightFill / 2 + 1e-9);
+  RC_ASSERT(std::max(e.high_y, -e.low_y) < kTightFill / 2 + 1e-9);
+}
+
+TEST(View, TightFramingWithoutAutoCenterLooksAtTheTarget) {
+  for (const bool orthographic : {false, true}) {
+    ViewOptions options = sized(200, 100);
+    options.tight = options.view_all = true;
+    options.orthographic = orthographic;
+    options.target = Vec3{1, 2, 3};
+    const Box box{{-5, -5, -5}, {9, 5, 5}};
+    const FramedView framed = frame_view(
+        options, {}, box, [&](const Directions& directions) { return box_reach(box, directions); });
+    const Vec3 to_target = *options.target - framed.camera.eye;
+    EXPECT_LT(length(normalize(to_target) - framed.camera.forward), 1e-12);
+    const Extent e = extent_of(framed.camera, box);
+    const double farthest = std::max(std::max(e.high_x, -e.low_x), std::max(e.high_y, -e.low_y));
+    EXPECT_NEAR(farthest, kTightFill / 2, 1e-9);
+  }
+}
+
+TEST(View, TightFramingIsToldInOpenscadsWordsToo) {
+  for (const bool orthographic : {false, true}) {
+    ViewOptions options = sized(120, 90);
+    options.tight = true;
+    options.orthographic = orthographic;
+    const Box box{{0, 0, 0}, {30, 20, 10}};
+    const FramedView framed = frame_view(
+        options, {}, box, [&](const Directions& directions) { return box_reach(box, directions); });
+    ViewOptions same = sized(120, 90);
+    same.orthographic = orthographic;
+    same.target = framed.view.target, same.distance = framed.view.distance;
+    same.rotation_degrees = framed.view.rotation_degrees;
+    const Camera camera = make_camera(same, {}, {});
+    EXPECT_LT(length(camera.eye - framed.camera.eye), 1e-9);
+    EXPECT_NEAR(camera.half_height, framed.camera.half_height, 1e-9);
+  }
+}
+
+TEST(View, OpenscadsFramingIsTheOneThatIsNotTight) {
+  const Box box{{0, 0, 0}, {30, 20, 10}};
+  const Camera camera = make_camera(sized(100, 100), {}, box);
+  EXPECT_NEAR(length(camera.eye - box.center()),
+              box.diagonal() / 2 / std::sin(11.25 / 180 * std::acos(-1.0)), 1e-9);
 }
 
 RC_GTEST_PROP(View, AxesAreOrthonormalAndRightHanded, ()) {

@@ -10,8 +10,12 @@ constexpr Choice<Backend> kBackends[] = {{"auto", Backend::kAuto},
 constexpr Choice<Pass> kPasses[] = {
     {"color", Pass::kColor}, {"depth", Pass::kDepth}, {"normal", Pass::kNormal}, {"id", Pass::kId}};
 constexpr Choice<FileFormat> kFormats[] = {{"png", FileFormat::kPng}, {"exr", FileFormat::kExr}};
-constexpr Choice<Style> kStyles[] = {
-    {"studio", Style::kStudio}, {"blinn", Style::kBlinn}, {"openscad", Style::kOpenscad}};
+constexpr Choice<Style> kStyles[] = {{"studio", Style::kStudio},
+                                     {"plain", Style::kPlain},
+                                     {"blinn", Style::kBlinn},
+                                     {"openscad", Style::kOpenscad}};
+constexpr Choice<Quality> kQualities[] = {
+    {"draft", Quality::kDraft}, {"good", Quality::kGood}, {"best", Quality::kBest}};
 constexpr Choice<Curves> kCurves[] = {
     {"auto", Curves::kAuto}, {"facets", Curves::kFacets}, {"smooth", Curves::kSmooth}};
 constexpr Choice<bool> kMatrices[] = {{"polished", true}, {"as-written", false}};
@@ -41,6 +45,9 @@ Choices<FileFormat> format_choices() {
 }
 Choices<Style> style_choices() {
   return kStyles;
+}
+Choices<Quality> quality_choices() {
+  return kQualities;
 }
 Choices<Curves> curves_choices() {
   return kCurves;

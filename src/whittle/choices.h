@@ -33,6 +33,7 @@ Choices<Backend> backend_choices();
 Choices<Pass> pass_choices();
 Choices<FileFormat> format_choices();
 Choices<Style> style_choices();
+Choices<Quality> quality_choices();
 Choices<Curves> curves_choices();
 /// What becomes of rotations printed with six digits; true: they are polished.
 Choices<bool> matrices_choices();

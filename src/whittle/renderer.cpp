@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -14,6 +15,7 @@
 #include "image/antialias.h"
 #include "image/cut_faces.h"
 #include "image/draw_outlines.h"
+#include "image/studio.h"
 #include "lower/lower.h"
 #include "model/instances.h"
 #include "subdivide/solid_bounds.h"
@@ -54,6 +56,7 @@ struct Renderer::State {
   std::vector<Appearance> looks;
   StageTimes times;
   std::optional<Box> framed;  ///< made when a camera first asks
+  bool has_end = true;        ///< what is framed is the solid's own box
   // In the order in which they are made from one another.
   Scene scene;
   std::optional<CutFaces> cut_faces;  ///< made when a style first asks
@@ -76,6 +79,8 @@ struct Renderer::State {
       : model(model_), settings(settings_), workers(settings_.threads) {}
 
   Status choose_backend();
+  /// What is framed where view-all is on.
+  const Box& framed_box();
   /// For as many rays as the camera has, or more if it looks closely at a part.
   Status make_tracer(const Camera& camera);
   Status make_tracer(const Camera& camera, double rays);
@@ -142,18 +147,32 @@ Result<Renderer> Renderer::make(const Model& model, const RendererSettings& sett
   return Renderer(std::move(state));
 }
 
+const Box& Renderer::State::framed_box() {
+  if (!framed) {
+    const SolidBounds solid = solid_bounds(scene, settings.threads);
+    has_end = solid.bounded;
+    framed = seen_box(model, has_end ? solid.box : bounds(model).box);
+  }
+  return *framed;
+}
+
 Camera Renderer::camera(const ViewOptions& options, GimbalView* view) {
   State& s = *state_;
   const FileView& file = s.model.view;
   const Stopwatch watch;
-  if (!s.framed && frames_the_solid(options, file)) {
-    const SolidBounds solid = solid_bounds(s.scene, s.settings.threads);
-    s.framed = seen_box(s.model, solid.bounded ? solid.box : bounds(s.model).box);
-  }
+  const bool frames = frames_the_solid(options, file);
+  const Box framed = frames ? s.framed_box() : Box{};
+  // How far a solid without end reaches nobody knows, and what a drawing shows has no height.
+  const Reach reach = [&](const Directions& directions) {
+    if (!s.has_end || s.model.drawing) return box_reach(framed, directions);
+    std::array<double, 4> found;
+    std::ranges::copy(solid_reach(s.scene, framed, directions, s.settings.threads), found.begin());
+    return found;
+  };
+  const FramedView framing = frame_view(options, file, framed, reach);
   s.times.frame = watch.milliseconds();
-  const Box framed = s.framed.value_or(Box{});
-  if (view) *view = gimbal_view(options, file, framed);
-  return make_camera(options, file, framed);
+  if (view) *view = framing.view;
+  return framing.camera;
 }
 
 Tracer& Renderer::State::seen() {
@@ -301,7 +320,10 @@ Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
   look.is_drawing = s.model.drawing.has_value();
   // On a plane there are none.
   if (look.shadows && !s.model.drawing) look.casters = view_region(bounds(s.model));
+  if (look.style == Style::kStudio && !s.model.drawing) look.solid = s.framed_box();
   const auto shaded = [&] {
+    if (look.style == Style::kStudio)
+      return shade_studio(s.seen(), camera, frame, s.looks, look, antialias, s.workers, stop);
     return shade_antialiased(s.seen(), camera, frame, s.looks, look, antialias, s.workers, stop);
   };
   Picture picture = shaded();

@@ -36,8 +36,15 @@ Status check_shadows(const ShadeSettings& settings);
 
 /// Rays a side of an edge pixel where nobody says: what looks right. The styles that show what
 /// others show (the paper, OpenSCAD) have no antialiasing, as those have none.
-constexpr int default_antialias(Style style) {
-  return style == Style::kStudio ? 4 : 1;
+constexpr int default_antialias(Style style, Quality quality = Quality::kGood) {
+  if (style == Style::kPlain) return 4;
+  if (style != Style::kStudio) return 1;
+  return quality == Quality::kDraft ? 2 : quality == Quality::kGood ? 3 : 6;
+}
+
+/// Whether the solid itself is framed; else OpenSCAD's ball around it.
+constexpr bool frames_tightly(Style style) {
+  return style == Style::kStudio;
 }
 
 struct RendererSettings {
@@ -81,8 +88,8 @@ class Renderer {
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
 
-  /// OpenSCAD's camera for these options and the model's $vp*, framing the solid (solid_bounds)
-  /// where view-all is on. Of a solid that has no end, what bounds() says is framed. `view` is told
+  /// The camera for these options and the model's $vp*, framing the solid (solid_bounds) where
+  /// view-all is on. Of a solid that has no end, what bounds() says is framed. `view` is told
   /// the same in OpenSCAD's words.
   Camera camera(const ViewOptions& options, GimbalView* view = nullptr);
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "csg/read_csg.h"
@@ -68,6 +69,45 @@ TEST(Renderer, FramesAlikeWithEveryBackend) {
   for (const Backend backend : {Backend::kCpu, Backend::kOracle})
     EXPECT_EQ(camera_of(model, small_view(), {.backend = backend, .subdivide = {}}).eye,
               camera_of(model, small_view()).eye);
+}
+
+/// The share of the picture's width or height, whichever is more, that is filled.
+double fill_of(const Model& model, ViewOptions view) {
+  view.tight = true;
+  Result<Renderer> renderer = Renderer::make(model, {});
+  EXPECT_TRUE(bool(renderer));
+  const Camera camera = renderer->camera(view);
+  EXPECT_TRUE(renderer->prepare(camera));
+  const Frame frame = *renderer->trace(camera);
+  int x0 = frame.width, x1 = 0, y0 = frame.height, y1 = 0;
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      if (!frame.at(x, y).hit()) continue;
+      x0 = std::min(x0, x), x1 = std::max(x1, x + 1);
+      y0 = std::min(y0, y), y1 = std::max(y1, y + 1);
+    }
+  }
+  return std::max(double(x1 - x0) / frame.width, double(y1 - y0) / frame.height);
+}
+
+TEST(Renderer, FramedTightlyTheSolidFillsTheSideItFillsMost) {
+  for (const char* text :
+       {kPart, "cube([100, 1, 1]);", "cube([1, 1, 50]);", "sphere(10);",
+        "cylinder(h = 30, r1 = 10, r2 = 0);", "rotate([90, 0, 30]) cylinder(h = 80, r = 3);",
+        "difference() { cube(9, center = true); translate([-9, -9, 1]) cube(20); }",
+        "translate([500, 0, 7]) union() { cube(4); translate([30, 0, 0]) sphere(3); }",
+        "hull() { cube(3); translate([10, 20, 30]) cube(1); }"}) {
+    const Model model = model_of(text);
+    for (const bool orthographic : {false, true}) {
+      for (const auto& [width, height] : {std::pair(400, 400), std::pair(600, 300)}) {
+        ViewOptions view;
+        view.width = width, view.height = height;
+        view.orthographic = orthographic;
+        EXPECT_NEAR(fill_of(model, view), kTightFill, 0.01)
+            << text << " " << width << " x " << height << (orthographic ? " orthographic" : "");
+      }
+    }
+  }
 }
 
 TEST(Renderer, ASolidWithoutEndIsFramedByItsFiniteParts) {

@@ -17,7 +17,7 @@ std::optional<Vec3> finite(const std::optional<Point>& p, const char* name) {
   return to_vec3(*p);
 }
 
-ViewOptions view_of(const RenderOptions& o) {
+ViewOptions view_of(const RenderOptions& o, Style style) {
   value_of(check_picture_size(o.width, o.height));
   if (o.distance && !(*o.distance >= 0 && std::isfinite(*o.distance))) {
     refuse("distance must be a finite number that is not negative");
@@ -32,6 +32,7 @@ ViewOptions view_of(const RenderOptions& o) {
           .center = finite(o.center, "center"),
           .view_all = o.view_all,
           .auto_center = o.auto_center,
+          .tight = frames_tightly(o.style.value_or(style)),
           .orthographic = o.orthographic,
           .fov_degrees = o.fov_degrees,
           .width = o.width,
@@ -44,6 +45,8 @@ ShadeSettings shading_of(const RenderOptions& o, Style style) {
   shading.light = finite(o.light, "light");
   shading.background = o.background;
   shading.shadows = o.shadows;
+  shading.quality = o.quality;
+  shading.ground = o.ground;
   if (!o.color_scheme.empty()) {
     shading.scheme = find_color_scheme(o.color_scheme);
     if (shading.scheme == nullptr) {
@@ -143,14 +146,14 @@ std::optional<Rendering> Session::render(const RenderOptions& options, const Con
     refuse("antialias must be 0 to " + std::to_string(kMostAntialias));
   }
   const ShadeSettings shading = shading_of(options, s.solid->style);
-  const Camera camera = s.renderer.camera(view_of(options));
+  const Camera camera = s.renderer.camera(view_of(options, s.solid->style));
   const auto stopped = [&] { return control.stop.stop_requested(); };
   if (stopped()) return std::nullopt;
   s.prepare(camera);
   const Frame frame = value_of(s.renderer.trace(camera, control_of(control)));
   if (stopped()) return std::nullopt;
   const int antialias =
-      options.antialias > 0 ? options.antialias : default_antialias(shading.style);
+      options.antialias > 0 ? options.antialias : default_antialias(shading.style, shading.quality);
   const Picture picture =
       value_of(s.renderer.shade(frame, camera, shading, antialias, control.stop));
   if (stopped()) return std::nullopt;
@@ -163,7 +166,7 @@ std::optional<Rendering> Session::render(const RenderOptions& options, const Con
 Seen Session::pick(const RenderOptions& options, double x, double y) {
   if (!std::isfinite(x) || !std::isfinite(y)) refuse("a position must be two finite numbers");
   State& s = *state_;
-  const Camera camera = s.renderer.camera(view_of(options));
+  const Camera camera = s.renderer.camera(view_of(options, s.solid->style));
   s.prepare(camera);
   const Ray ray = camera.ray(x, y);
   Hit hit;

@@ -177,6 +177,8 @@ TEST(Solid, RefusesWhatPassesALimit) {
 TEST(Rendering, IsTransparentWithoutBackground) {
   RenderOptions options = from_above();
   options.background = false;
+  EXPECT_GT(Solid::parse(kCubeText).render(options).rgba[3], 0) << "the shadow on the ground";
+  options.ground = false;
   const Rendering made = Solid::parse(kCubeText).render(options);
   EXPECT_TRUE(made.transparent);
   EXPECT_EQ(made.rgba[3], 0);

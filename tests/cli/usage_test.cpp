@@ -135,7 +135,7 @@ TEST_F(Usage, NamesInMessagesCommandNoTerminal) {
   EXPECT_EQ(run({"part.csg", "-o", "b\x1b/x.png"}).err,
             "whittle: cannot write 'b?/x.png': No such file or directory\n");
   EXPECT_EQ(run({"part.csg", "-o", "x.png", "--style", "\n\x1b"}).err,
-            "whittle: --style: unknown style '?\?'; there are: studio, blinn, openscad\n"
+            "whittle: --style: unknown style '?\?'; there are: studio, plain, blinn, openscad\n"
             "Try 'whittle --help'.\n");
   EXPECT_EQ(run({"info", odd}).out.find("file         " + shown + "\n"), 0u);
   EXPECT_EQ(run({"bench", odd, "--imgsize", "8,8", "--repeat", "1"}).out.find(shown + ": 8 x 8"),
@@ -204,8 +204,10 @@ TEST_F(Usage, ACameraHasSixOrSevenNumbers) {
 }
 
 TEST_F(Usage, UnknownNamesAreAnsweredWithThoseThereAre) {
+  expect_refused({"--quality", "x"},
+                 "--quality: unknown quality 'x'; there are: draft, good, best");
   expect_refused({"--style", "x"},
-                 "--style: unknown style 'x'; there are: studio, blinn, openscad");
+                 "--style: unknown style 'x'; there are: studio, plain, blinn, openscad");
   expect_refused({"--backend", "gpu"},
                  "--backend: unknown backend 'gpu'; there are: auto, cpu, vulkan-raster, oracle");
   expect_refused({"--pass", "x"}, "--pass: unknown pass 'x'; there are: color, depth, normal, id");

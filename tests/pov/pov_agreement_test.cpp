@@ -13,7 +13,7 @@
 #include "base/folder_for_test.h"
 #include "csg/read_csg.h"
 #include "generate/generate.h"
-#include "image/antialias.h"
+#include "image/edge_pixels.h"
 #include "image/png.h"
 #include "image/pov.h"
 #include "model/instances.h"
