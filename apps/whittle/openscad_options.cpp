@@ -69,14 +69,15 @@ void add_openscad_options(CommandLine& line, OpenscadArguments& openscad) {
 }
 
 std::optional<std::string> refusal_of_format(const std::string& name_or_path) {
-  constexpr std::array<std::string_view, 15> kFormats = {"wrl",  "amf",  "3mf",  "csg",    "param",
-                                                         "dxf",  "svg",  "pdf",  "pov",    "ast",
-                                                         "term", "echo", "nef3", "nefdbg", "scad"};
+  constexpr std::array<std::string_view, 14> kFormats = {"wrl",  "amf",  "3mf",    "csg", "param",
+                                                         "dxf",  "pdf",  "pov",    "ast", "term",
+                                                         "echo", "nef3", "nefdbg", "scad"};
   const std::string lower = to_lower(name_or_path);
   const std::string ending = lower.substr(lower.rfind('.') + 1);
   if (std::ranges::find(kFormats, ending) == kFormats.end()) return std::nullopt;
-  return fmt::format("'{}' asks for .{}, but whittle writes .png, .exr, .stl, .off and .obj only",
-                     name_or_path, ending);
+  return fmt::format(
+      "'{}' asks for .{}, but whittle writes .png, .exr, .svg, .stl, .off and .obj only",
+      name_or_path, ending);
 }
 
 }  // namespace whittle

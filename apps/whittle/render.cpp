@@ -14,12 +14,14 @@
 #include "frame_reader.h"
 #include "host/dependencies.h"
 #include "host/input_kinds.h"
+#include "line_files.h"
 #include "openscad_options.h"
 #include "option_group.h"
 #include "progress.h"
 #include "solid_files.h"
 #include "statistics.h"
 #include "summary.h"
+#include "whittle/line_output.h"
 #include "whittle/output.h"
 #include "whittle/reading.h"
 
@@ -43,6 +45,7 @@ constexpr CommandHelp kHelp = {
     "  whittle part.csg -o part.png -o facts.exr --imgsize 1920,1080\n"
     "  whittle part.csg -o top.png --camera 0,0,0,0,0,0,200 --projection ortho\n"
     "  whittle part.csg -o part.stl\n"
+    "  whittle part.csg -o part.svg --projection ortho --hidden-lines\n"
     "  openscad -o - --export-format csg part.scad | whittle - -o part.png\n\n"
     "  whittle part.scad -o lid.png -D 'part=\"lid\"'\n\n"
     "Exit codes: 0 done, 1 bad input, or something in it is not shown (--lenient: 0),\n"
@@ -51,10 +54,13 @@ constexpr CommandHelp kHelp = {
     "CGAL, --csglimit, --debug, --check-parameters and --check-parameter-ranges change\n"
     "no picture. Other views (--view, --preview=throwntogether) are refused."};
 
+constexpr double kLeastScale = 1e-6, kMostScale = 1e6;
+
 struct Output {
   std::string path;
   FileFormat format;                 ///< of a picture
   std::optional<SolidFormat> solid;  ///< it is none
+  bool is_lines = false;             ///< it is a line drawing
 };
 
 struct RenderArguments {
@@ -62,6 +68,9 @@ struct RenderArguments {
   std::vector<std::string> outputs;
   std::optional<FileFormat> export_format;
   std::optional<SolidFormat> export_solid;
+  bool export_lines = false;
+  LineSettings lines;
+  std::optional<double> scale;
   Loading loading;
   ViewOptions view;
   ShadeSettings shading;
@@ -80,15 +89,17 @@ void add_options(CommandLine& line, RenderArguments& a) {
   line.add_required("FILE", a.file);
   OptionGroup output(app, "Output"), look(app, "Look"), machine(app, "Machine");
   output.add_each("-o", "OUT",
-                  "a .png, .exr, .stl, .off or .obj, each -o one; '-': standard output",
+                  "a .png, .exr, .svg, .stl, .off or .obj, each -o one;\n'-': standard output",
                   [&](const std::string& path) { a.outputs.push_back(path); });
   output.add_text(
       "--export-format", "NAME",
-      names_of(format_choices()) + ", " + names_of(solid_format_choices()) +
-          ", whatever OUT ends in",
+      names_of(format_choices()) + ", svg, " + names_of(solid_format_choices()) +
+          ",\nwhatever OUT ends in",
       [&](const std::string& name) {
         a.export_format.reset();
         a.export_solid.reset();
+        a.export_lines = name == "svg";
+        if (a.export_lines) return;
         if (const Result<SolidFormat> solid = choose(solid_format_choices(), "format", name)) {
           a.export_solid = *solid;
           return;
@@ -101,6 +112,15 @@ void add_options(CommandLine& line, RenderArguments& a) {
       });
   output.add_choice("--pass", pass_choices(), "pass", "what a PNG shows: {}",
                     [&](Pass pass) { a.pass = pass; });
+  output.add_flag("--hidden-lines", a.lines.hidden, "an .svg shows hidden lines, dashed");
+  output.add_text(
+      "--scale", "S", "of an .svg with --projection ortho: millimetres for one unit (1)",
+      [&](const std::string& text) {
+        a.scale = parse_number("--scale", text);
+        if (*a.scale < kLeastScale || *a.scale > kMostScale)
+          refuse("--scale",
+                 fmt::format("'{}' is not between {} and {}", text, kLeastScale, kMostScale));
+      });
   add_openscad_options(line, a.openscad);
   add_summary_options(app, a.summary);
   add_view_options(app, a.view, a.loading);
@@ -126,7 +146,7 @@ Result<std::vector<Output>> choose_outputs(const RenderArguments& a) {
   }
   std::vector<Output> outputs;
   for (const std::string& path : a.outputs) {
-    Output output{path, FileFormat::kPng, a.export_solid};
+    Output output{path, FileFormat::kPng, a.export_solid, a.export_lines};
     const auto is_standard = [](const Output& other) { return other.path == "-"; };
     if (path == "-" && std::ranges::any_of(outputs, is_standard)) {
       return Error{ErrorKind::kUsage, "-o - (standard output) is given more than once"};
@@ -135,19 +155,23 @@ Result<std::vector<Output>> choose_outputs(const RenderArguments& a) {
       output.format = *a.export_format;
     } else if (a.export_solid) {
       output.solid = a.export_solid;
+    } else if (a.export_lines) {
+      output.is_lines = true;
+    } else if (is_line_drawing(path)) {
+      output.is_lines = true;
     } else if (const std::optional<SolidFormat> solid = solid_format_of(path)) {
       output.solid = solid;
     } else if (path == "-") {
       return Error{ErrorKind::kUsage,
-                   fmt::format("-o - (standard output) needs --export-format {}, {}",
+                   fmt::format("-o - (standard output) needs --export-format {}, svg, {}",
                                names_of(format_choices()), names_of(solid_format_choices()))};
     } else {
       const Result<FileFormat> format = format_of(path);
       if (!format) {
         const std::optional<std::string> refusal = refusal_of_format(path);
         return Error{ErrorKind::kUsage,
-                     refusal.value_or(fmt::format("'{}' does not end in .png, .exr, .stl, .off or "
-                                                  ".obj, so its format is not known",
+                     refusal.value_or(fmt::format("'{}' does not end in .png, .exr, .svg, .stl, "
+                                                  ".off or .obj, so its format is not known",
                                                   path))};
       }
       output.format = *format;
@@ -197,6 +221,8 @@ Status check_possible(const RenderArguments& a, const std::vector<Output>& outpu
   if (Status possible = check_shadows(a.shading); !possible) return possible;
   if (Status possible = check_view(a.view); !possible) return possible;
   if (Status possible = check_loading(a.file, a.loading); !possible) return possible;
+  if (a.scale && !a.view.orthographic)
+    return Error{ErrorKind::kUsage, "--scale is for --projection ortho; no other view has a scale"};
   const Animation& animation = a.openscad.animation;
   if (animation.shards > 1 && animation.frames == 0) {
     return Error{ErrorKind::kUsage, "--animate_sharding is for --animate N"};
@@ -207,7 +233,7 @@ Status check_possible(const RenderArguments& a, const std::vector<Output>& outpu
   }
   std::vector<std::string> paths;
   for (const Output& output : outputs) {
-    if (animation.frames > 0 && output.solid) {
+    if (animation.frames > 0 && (output.solid || output.is_lines)) {
       return Error{ErrorKind::kUsage, "--animate makes pictures, .png or .exr"};
     }
     if (animation.frames > 0 && output.path == "-") {
@@ -289,18 +315,36 @@ Status write_solids(RenderArguments& a, const std::vector<Output>& outputs, Made
   return Done{};
 }
 
+/// Line drawings of what was read.
+Status draw_lines_of(const RenderArguments& a, const std::vector<Output>& outputs,
+                     const Model& model) {
+  std::vector<std::string> paths;
+  for (const Output& output : outputs) paths.push_back(output.path);
+  LineSettings lines = a.lines;
+  lines.scale = a.scale.value_or(1);
+  return write_line_files(model, paths,
+                          {a.view, lines, a.renderer.threads, a.loading.quiet, a.wants_statistics});
+}
+
 Status render_still(RenderArguments& a, const std::vector<Output>& outputs, Made& made) {
-  std::vector<Output> pictures, solids;
-  for (const Output& output : outputs) (output.solid ? solids : pictures).push_back(output);
+  std::vector<Output> pictures, lines, solids;
+  for (const Output& output : outputs)
+    (output.solid ? solids : output.is_lines ? lines : pictures).push_back(output);
   if (!solids.empty()) {
     if (Status done = write_solids(a, solids, made); !done) return done;
   }
-  if (pictures.empty()) return Done{};
+  if (pictures.empty() && lines.empty()) return Done{};
   const Stopwatch watch;
   const Result<Read> read = load(a.file, a.loading);
   if (!read) return read.error();
-  if (Status done = render(a, pictures, read->model, watch); !done) return done;
-  made.add(pictures, *read);
+  if (!lines.empty()) {
+    if (Status done = draw_lines_of(a, lines, read->model); !done) return done;
+    made.add(lines, *read);
+  }
+  if (!pictures.empty()) {
+    if (Status done = render(a, pictures, read->model, watch); !done) return done;
+    made.add(pictures, *read);
+  }
   if (made.code == kExitDone) made.code = code_for(*read, a.loading);
   return Done{};
 }

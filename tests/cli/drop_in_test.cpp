@@ -74,14 +74,13 @@ TEST_F(DropIn, WhatWouldBeAnotherPictureIsRefused) {
 }
 
 TEST_F(DropIn, OtherFormatsAreRefused) {
-  for (const std::string ending :
-       {"amf", "3mf", "csg", "dxf", "svg", "pdf", "echo", "ast", "AMF"}) {
+  for (const std::string ending : {"amf", "3mf", "csg", "dxf", "pdf", "echo", "ast", "AMF"}) {
     expect_refused({"part.csg", "-o", "x.png", "-o", "x." + ending},
                    "'x." + ending + "' asks for .");
   }
   expect_refused(
       {"part.csg", "-o", "x.amf"},
-      "'x.amf' asks for .amf, but whittle writes .png, .exr, .stl, .off and .obj only\n");
+      "'x.amf' asks for .amf, but whittle writes .png, .exr, .svg, .stl, .off and .obj only\n");
   expect_refused({"part.csg", "-o", "x.png", "--export-format", "3mf"},
                  "--export-format: '3mf' asks for .3mf, but whittle writes");
   expect_refused({"part.csg", "-s", "x.stl"}, "-s: the ending of -o FILE says what is written");

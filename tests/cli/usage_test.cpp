@@ -72,13 +72,13 @@ TEST_F(Usage, TheEndingOfTheOutputMustBeKnown) {
   const Ended unknown = run({"part.csg", "-o", "x.jpg"});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_EQ(unknown.err,
-            "whittle: 'x.jpg' does not end in .png, .exr, .stl, .off or .obj, so its format is not "
-            "known\n");
+            "whittle: 'x.jpg' does not end in .png, .exr, .svg, .stl, .off or .obj, so its format "
+            "is not known\n");
   const Ended standard = run({"part.csg", "-o", "-"});
   EXPECT_EQ(standard.exit_code, 2);
   EXPECT_EQ(
       standard.err,
-      "whittle: -o - (standard output) needs --export-format png, exr, stl, binstl, asciistl, "
+      "whittle: -o - (standard output) needs --export-format png, exr, svg, stl, binstl, asciistl, "
       "off, obj\n");
 }
 
@@ -128,7 +128,7 @@ TEST_F(Usage, NamesInMessagesCommandNoTerminal) {
             shown + ":1:10: error: roofs are not supported (--strict)\n");
   EXPECT_EQ(run({odd, "-o", odd}).err,
             "whittle: '" + shown +
-                "' asks for .csg, but whittle writes .png, .exr, .stl, .off and .obj only\n");
+                "' asks for .csg, but whittle writes .png, .exr, .svg, .stl, .off and .obj only\n");
   EXPECT_EQ(run({"part.csg", "-o", "b\x1b/x.png"}).err,
             "whittle: cannot write 'b?/x.png': No such file or directory\n");
   EXPECT_EQ(run({"part.csg", "-o", "x.png", "--style", "\n\x1b"}).err,
