@@ -97,10 +97,12 @@ class Drafter {
   /// The tracers: of the solid with facets, and of the true one if it has none of its own.
   void look(Tracer& facetted, Tracer* smooth, const Progress& progress) {
     visible_ = visible_parts(parts_, lines_, edges_, projection_, facetted, progress);
-    if (smooth != nullptr)
-      smooth_ = smooth_parts(parts_, lines_, edges_, visible_, projection_, *smooth);
-    else
-      smooth_.assign(parts_.size(), false);
+    smooth_.assign(parts_.size(), false);
+    const auto mark = [&](Doubt doubt, Tracer& tracer) {
+      mark_smooth_parts(doubt, parts_, lines_, edges_, visible_, projection_, tracer, smooth_);
+    };
+    mark(Doubt::kFold, facetted);
+    if (smooth != nullptr) mark(Doubt::kMade, *smooth);
   }
 
   /// What is drawn: silhouettes first, for they stay where lines lie on one another.

@@ -147,6 +147,20 @@ TEST(LineDrawing, FacetsThatDoNotFitAreNotSeen) {
   }
 }
 
+TEST(LineDrawing, TwistedSurfacesHaveNoWrinkles) {
+  // A square that turns as it rises: four flanks and their edges. Seen along a flank every other
+  // triangle of it looks away.
+  const std::string twisted =
+      "linear_extrude(height = 40, twist = 200, slices = 80) square(size = 10, center = true);";
+  const double side = 40.0;
+  for (const double turn : {0.0, 20.0, 50.0, 75.0}) {
+    const LineDrawing drawing = to_scale(twisted, {65, 0, turn}, false);
+    EXPECT_LT(length_of(drawing, LineKind::kSilhouette) + length_of(drawing, LineKind::kEdge),
+              6 * side)
+        << turn;
+  }
+}
+
 TEST(LineDrawing, BallsBesideOneAnotherHaveNoPoles) {
   // The topmost facets of all lie in one plane.
   const LineDrawing drawing = to_scale(

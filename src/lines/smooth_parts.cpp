@@ -8,49 +8,52 @@
 namespace whittle {
 namespace {
 
-Vec3 normal_of(const Hit& hit) {
-  return {double(hit.normal.x), double(hit.normal.y), double(hit.normal.z)};
-}
+/// How two places of one surface may differ.
+struct Likeness {
+  double least_cosine;  ///< between their normals
+  double slope;         ///< the sine by which each may be out of the other's tangent plane
+};
 
-/// Whether two points that are near one another in the drawing lie on one smooth surface: each in
-/// the other's tangent plane, nearly, and no farther away than `farthest`.
-bool is_smooth(const Ray& ray_a, const Hit& a, const Ray& ray_b, const Hit& b, double farthest) {
-  constexpr double kSlope = 0.1;
-  if (!a.hit() || !b.hit()) return false;
-  if (dot(normal_of(a), normal_of(b)) < cos_degrees(kCrease)) return false;
-  const Vec3 way = ray_b.origin + ray_b.direction * double(b.distance) -
-                   (ray_a.origin + ray_a.direction * double(a.distance));
-  const double apart = length(way), most = kSlope * apart;
-  return apart <= farthest && std::fabs(dot(normal_of(a), way)) <= most &&
-         std::fabs(dot(normal_of(b), way)) <= most;
+struct Seen {
+  Vec3 point, normal;
+};
+
+bool is_smooth(const Seen& a, const Seen& b, const Likeness& likeness, double farthest) {
+  if (dot(a.normal, b.normal) < likeness.least_cosine) return false;
+  const Vec3 way = b.point - a.point;
+  const double apart = length(way), most = likeness.slope * apart;
+  return apart <= farthest && std::fabs(dot(a.normal, way)) <= most &&
+         std::fabs(dot(b.normal, way)) <= most;
 }
 
 /// Asks about many parts at once.
 class Asker {
  public:
-  Asker(const Projection& projection, Tracer& tracer, std::vector<bool>& smooth)
-      : projection_(projection), tracer_(tracer), smooth_(smooth) {}
+  Asker(const Projection& projection, Tracer& tracer, const Likeness& likeness,
+        std::vector<bool>& smooth)
+      : projection_(projection), tracer_(tracer), likeness_(likeness), smooth_(smooth) {}
 
-  void add(size_t number, const LinePart& part, const DrawnLine& line, double stray,
+  void add(size_t number, const LinePart& part, const DrawnLine& line, const SolidEdge& edge,
            bool is_visible) {
-    const double beside = stray * projection_.fineness();
+    const double beside = edge.stray * projection_.fineness();
     const double middle = (part.from + part.to) / 2;
     const Vec3 point = projection_.point(line, middle);
     const double in_space = beside / projection_.units_at(projection_.depth(point));
+    const double farthest = edge.doubt == Doubt::kFold ? edge.fold : kFarthest * in_space;
     const Vec2 way = line.b - line.a, at = line.at(middle);
     const Vec2 across = Vec2{-way.y, way.x} * (beside / length(way));
     // What is before a hidden edge is passed, and what is far behind it is not there.
     double start = 0, end = std::numeric_limits<double>::infinity();
     if (!is_visible) {
       projection_.ray_to(point, start);
-      end = start + kFarthest * in_space;
+      end = start + farthest;
       start -= 4 * in_space;
     }
     for (const Vec2 place : {at - across, at + across}) {
       rays_.push_back(projection_.ray_at(place));
       if (!is_visible) rays_.back().t_min = start;
     }
-    asked_.push_back({number, kFarthest * in_space, end});
+    asked_.push_back({number, farthest, end});
     if (rays_.size() >= kAtOnce) ask();
   }
 
@@ -61,7 +64,8 @@ class Asker {
       const Hit &a = hits_[2 * i], &b = hits_[2 * i + 1];
       const bool is_nothing = a.distance > asked_[i].end && b.distance > asked_[i].end;
       smooth_[asked_[i].number] =
-          is_nothing || is_smooth(rays_[2 * i], a, rays_[2 * i + 1], b, asked_[i].farthest);
+          is_nothing || (a.hit() && b.hit() &&
+                         is_smooth(seen(2 * i), seen(2 * i + 1), likeness_, asked_[i].farthest));
     }
     rays_.clear(), asked_.clear();
   }
@@ -72,11 +76,19 @@ class Asker {
   static constexpr double kFarthest = 100;
   struct Asked {
     size_t number;
-    double farthest;  ///< between the points of one surface
+    double farthest;  ///< between places of one surface
     double end;       ///< of the rays
   };
+
+  Seen seen(size_t i) const {
+    const Vec3f n = hits_[i].normal;
+    return {rays_[i].origin + rays_[i].direction * double(hits_[i].distance),
+            {double(n.x), double(n.y), double(n.z)}};
+  }
+
   const Projection& projection_;
   Tracer& tracer_;
+  const Likeness& likeness_;
   std::vector<bool>& smooth_;
   std::vector<Ray> rays_;
   std::vector<Asked> asked_;
@@ -85,18 +97,19 @@ class Asker {
 
 }  // namespace
 
-std::vector<bool> smooth_parts(std::span<const LinePart> parts, std::span<const DrawnLine> lines,
-                               std::span<const SolidEdge> edges, const std::vector<bool>& visible,
-                               const Projection& projection, Tracer& tracer) {
-  std::vector<bool> smooth(parts.size(), false);
-  Asker asker(projection, tracer, smooth);
+void mark_smooth_parts(Doubt doubt, std::span<const LinePart> parts,
+                       std::span<const DrawnLine> lines, std::span<const SolidEdge> edges,
+                       const std::vector<bool>& visible, const Projection& projection,
+                       Tracer& tracer, std::vector<bool>& smooth) {
+  const Likeness likeness = doubt == Doubt::kFold ? Likeness{cos_degrees(kCreaseOfBody), 0.25}
+                                                  : Likeness{cos_degrees(kCrease), 0.1};
+  Asker asker(projection, tracer, likeness, smooth);
   for (size_t i = 0; i < parts.size(); ++i) {
     const DrawnLine& line = lines[parts[i].line];
-    const double stray = edges[line.edge].stray;
-    if (stray > 0) asker.add(i, parts[i], line, stray, visible[i]);
+    const SolidEdge& edge = edges[line.edge];
+    if (edge.doubt == doubt) asker.add(i, parts[i], line, edge, visible[i]);
   }
   asker.ask();
-  return smooth;
 }
 
 }  // namespace whittle

@@ -46,6 +46,15 @@ struct Spokes {
   }
 };
 
+double longest_edge(const SolidMesh& mesh, const SolidMesh::Triangle& triangle) {
+  double longest = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    const Vec3 from = mesh.corners[triangle.corners[i]];
+    longest = std::max(longest, length(mesh.corners[triangle.corners[(i + 1) % 3]] - from));
+  }
+  return longest;
+}
+
 /// How each face looks to the eye: the cosine, 0 or less where it does not.
 std::vector<double> facings(const SolidMesh& mesh, const Projection& projection, bool is_inside) {
   // What is seen along is not seen; rounding must not say otherwise.
@@ -74,7 +83,9 @@ class EdgeJudge {
         is_inside_(is_inside) {}
 
   /// Adds the edge if it is drawn. The faces: left and right of it, seen from outside.
-  void judge(Vec3 from, Vec3 to, uint32_t left, uint32_t right, std::vector<SolidEdge>& out) const {
+  /// `longest`: the longest edge of the triangle to its right.
+  void judge(Vec3 from, Vec3 to, uint32_t left, uint32_t right, double longest,
+             std::vector<SolidEdge>& out) const {
     SolidEdge edge{.from = from, .to = to, .inward = {}};
     const bool sees_left = facings_[left] > 0, sees_right = facings_[right] > 0;
     edge.is_contour = sees_left != sees_right;
@@ -89,7 +100,11 @@ class EdgeJudge {
       // What looks away from it is the other side of a crack.
       const bool is_crack = dot(true_left, true_right) < -0.99;
       const double sine = is_crease && !is_crack ? length(cross(true_left, true_right)) : 1;
-      edge.stray = 1.5 / std::max(sine, kLeastSine);
+      edge.doubt = Doubt::kMade;
+      edge.stray /= std::max(sine, kLeastSine);
+    } else if (!is_crease && normals_.body(mesh_.faces[left]) != 0) {
+      edge.doubt = Doubt::kFold;
+      edge.fold = 2 * longest;
     }
     const Vec3 way = normalize(to - from);
     const Vec3 n_left = mesh_.faces[left].outward, n_right = mesh_.faces[right].outward;
@@ -135,7 +150,8 @@ std::vector<SolidEdge> solid_edges(const SolidMesh& mesh, const TrueNormals& nor
           if (high < low) continue;
           const uint32_t left = spokes.face(low, high);
           if (left != triangle.face)
-            judge.judge(mesh.corners[low], mesh.corners[high], left, triangle.face, chunks[chunk]);
+            judge.judge(mesh.corners[low], mesh.corners[high], left, triangle.face,
+                        longest_edge(mesh, triangle), chunks[chunk]);
         }
       }
     }

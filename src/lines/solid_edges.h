@@ -11,6 +11,13 @@
 
 namespace whittle {
 
+/// Why a part of an edge may be none that one wants to see; what is beside it decides.
+enum class Doubt {
+  kNone,
+  kMade,  ///< its facets are of the drawing's own making, the true surfaces may be smooth there
+  kFold,  ///< a contour on a surface of many flat parts that is seen along, and so may be wrinkled
+};
+
 /// An edge at which one or both of a drawing's reasons to show it hold.
 struct SolidEdge {
   Vec3 from, to;
@@ -18,10 +25,11 @@ struct SolidEdge {
   /// What is behind it is covered on one side and not on the other. Where the solid is hollow, not.
   bool may_cover = false;
   bool may_be_seen = false;  ///< unless something is before it
-  /// Of facets that only drawing has made, how far it may be from where the true surfaces have it,
-  /// if they have it at all; in units of the drawing's fineness. Of all others 0.
-  double stray = 0;
-  Vec3 inward;  ///< unit; from the edge into a face that looks to the eye, if there is one
+  Doubt doubt = Doubt::kNone;
+  /// In doubt, how far it may be from where it belongs; in units of the drawing's fineness.
+  double stray = 1.5;
+  double fold = 0;  ///< of a possible fold, how long the folded part can be at most
+  Vec3 inward;      ///< unit; from the edge into a face that looks to the eye, if there is one
 };
 
 /// Contours, and creases: where two surfaces meet at an angle. Those of one body made of many flat
