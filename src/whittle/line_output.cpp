@@ -46,7 +46,8 @@ Result<std::string> line_svg_of(const Model& model, const ViewOptions& view,
                                                      : drawing.error();
   }
   if (s.facets == 0) return refused("the solid is empty");
-  return write_line_svg(*drawing, model.file);
+  // Folders are nobody's business.
+  return write_line_svg(*drawing, std::string_view(model.file).substr(model.file.rfind('/') + 1));
 }
 
 }  // namespace whittle
