@@ -17,15 +17,16 @@ namespace {
 constexpr int kFewest = 8, kMost = 720;
 
 /// Facets of a circle of that radius, in units of the drawing. With a multiple of four the curve's
-/// own extremes are corners. With one of twelve, of more than that 24, a pin that is turned in its
-/// hole by 15 degrees still has the same.
-int facets_for(double radius, double fineness) {
+/// own extremes are corners. With one of 24 a pin that is turned in its hole by 15 degrees still
+/// has the same as the hole; balls are turned less often, and have their number squared.
+int facets_for(double radius, double fineness, bool is_ball) {
   const double share = fineness / radius;
   if (!(share < 0.5)) return kFewest;
   const double n = std::ceil(std::numbers::pi / std::acos(1 - share));
   if (!(n < kMost)) return kMost;
   if (n <= 12) return n <= kFewest ? kFewest : 12;
-  return (int(n) + 23) / 24 * 24;
+  const int step = is_ball ? 4 : 24;
+  return (int(n) + step - 1) / step * step;
 }
 
 /// How often a map makes lengths longer, at most.
@@ -78,8 +79,9 @@ Result<Model> facet_curves(const Model& model, const Projection& projection, siz
     size_t count = 0;
     for (size_t i = 0; i < all.size(); ++i) {
       Shape& shape = facetted.primitives[all[i].primitive].shape;
-      if (radii[i] > 0)
-        set_facets(shape, facets_for(bodies[i] != 0 ? widest[bodies[i]] : radii[i], fineness));
+      const double radius = bodies[i] != 0 ? widest[bodies[i]] : radii[i];
+      const bool is_ball = std::holds_alternative<Sphere>(shape);
+      if (radii[i] > 0) set_facets(shape, facets_for(radius, fineness, is_ball));
       count += facet_count(shape);
     }
     if (count <= most_facets) return facetted;
