@@ -14,6 +14,7 @@
 #include "frame_reader.h"
 #include "host/dependencies.h"
 #include "host/input_kinds.h"
+#include "line_files.h"
 #include "many_files.h"
 #include "openscad_options.h"
 #include "option_group.h"
@@ -53,6 +54,7 @@ constexpr CommandHelp kHelp = {
     "  whittle part.csg -o top.png --camera 0,0,0,0,0,0,200 --projection ortho\n"
     "  whittle part.csg -o part.stl\n"
     "  whittle *.csg -o 'pictures/{name}.png'\n"
+    "  whittle part.csg -o part.svg --projection ortho --hidden-lines\n"
     "  openscad -o - --export-format csg part.scad | whittle - -o part.png\n\n"
     "  whittle part.scad -o lid.png -D 'part=\"lid\"'\n\n"
     "Exit codes: 0 done, 1 bad input, or something in it is not shown (--lenient: 0),\n"
@@ -60,6 +62,8 @@ constexpr CommandHelp kHelp = {
     "OpenSCAD's --render and --preview decide $preview of a .scad. --backend Manifold or\n"
     "CGAL, --csglimit, --debug, --check-parameters and --check-parameter-ranges change\n"
     "no picture. Other views (--view, --preview=throwntogether) are refused."};
+
+constexpr double kLeastScale = 1e-6, kMostScale = 1e6;
 
 struct Output {
   std::string path;
@@ -74,6 +78,8 @@ struct RenderArguments {
   std::string file;  ///< of them, the one that is drawn
   std::vector<std::string> outputs;
   std::optional<ExportFormat> export_format;
+  LineSettings lines;
+  std::optional<double> scale;  ///< of line drawings
   Loading loading;
   ViewOptions view;
   ShadeSettings shading;
@@ -107,6 +113,15 @@ void add_options(CommandLine& line, RenderArguments& a) {
       });
   output.add_choice("--pass", pass_choices(), "pass", "what a PNG shows: {}",
                     [&](Pass pass) { a.pass = pass; });
+  output.add_flag("--hidden-lines", a.lines.hidden, "an .svg shows hidden lines, dashed");
+  output.add_text(
+      "--scale", "S", "of an .svg with --projection ortho: millimetres for one unit (1)",
+      [&](const std::string& text) {
+        a.scale = parse_number("--scale", text);
+        if (*a.scale < kLeastScale || *a.scale > kMostScale)
+          refuse("--scale",
+                 fmt::format("'{}' is not between {} and {}", text, kLeastScale, kMostScale));
+      });
   add_openscad_options(line, a.openscad);
   add_summary_options(app, a.summary);
   add_reference_options(app, a.reference);
@@ -214,6 +229,8 @@ Status check_possible(const RenderArguments& a, const std::vector<Output>& outpu
   if (Status possible = check_view(a.view); !possible) return possible;
   if (Status possible = check_loading(a.file, a.loading); !possible) return possible;
   if (Status possible = check_reference(a.reference); !possible) return possible;
+  if (a.scale && !a.view.orthographic)
+    return Error{ErrorKind::kUsage, "--scale is for --projection ortho; no other view has a scale"};
   const Animation& animation = a.openscad.animation;
   if (animation.shards > 1 && animation.frames == 0) {
     return Error{ErrorKind::kUsage, "--animate_sharding is for --animate N"};
@@ -295,6 +312,37 @@ struct Made {
   }
 };
 
+/// The view that a picture would have, where nothing but the box is known.
+GimbalView view_of_box(const RenderArguments& a, const Model& model, const Box& box) {
+  const auto reach = [&](const Directions& directions) { return box_reach(box, directions); };
+  return frame_view(a.view, model.view, box, reach).view;
+}
+
+/// Line drawings of a solid, as its pictures show it. Adds to what a summary says of pictures.
+Status write_lines(RenderArguments& a, const std::vector<Output>& outputs, bool has_pictures,
+                   Made& made, SummaryFacts& facts) {
+  const Stopwatch watch;
+  Loading loading = a.loading;
+  loading.quiet = loading.quiet || has_pictures;  // warnings were said
+  const Result<Read> read = load(a.file, loading);
+  if (!read) return read.error();
+  std::vector<std::string> paths;
+  for (const Output& output : outputs) paths.push_back(output.path);
+  LineSettings lines = a.lines;
+  lines.scale = a.scale.value_or(1);
+  const Status drawn = write_line_files(
+      read->model, paths, {a.view, lines, a.renderer.threads, a.loading.quiet, a.wants_statistics});
+  if (!drawn) return drawn;
+  made.add(outputs, *read);
+  if (made.code == kExitDone) made.code = code_for(*read, loading, "drawing");
+  facts.milliseconds += watch.milliseconds();
+  if (!has_pictures) {
+    facts.geometry = {.box = tight_box(read->model)};
+    facts.view = view_of_box(a, read->model, facts.geometry.box);
+  }
+  return Done{};
+}
+
 /// Files of the shape; what is read has facets. Adds to what a summary says of pictures.
 Status write_shapes(RenderArguments& a, const std::vector<Output>& outputs, bool has_pictures,
                     Made& made, SummaryFacts& facts) {
@@ -305,19 +353,27 @@ Status write_shapes(RenderArguments& a, const std::vector<Output>& outputs, bool
   loading.quiet = loading.quiet || has_pictures;  // warnings were said
   const Result<Read> read = load(a.file, loading);
   if (!read) return read.error();
-  std::vector<ShapeOutput> files;
-  for (const Output& output : outputs) files.push_back({output.path, output.format});
-  const Result<GeometryFacts> geometry = write_shape_files(
-      read->model, files,
-      {a.loading.curves, a.renderer.threads, a.loading.quiet, a.wants_statistics});
-  if (!geometry) return geometry.error();
-  made.add(outputs, *read);
-  if (made.code == kExitDone)
-    made.code = code_for(*read, loading, read->model.drawing ? "drawing" : "solid");
-  facts.geometry = *geometry;
-  facts.milliseconds += watch.milliseconds();
-  if (!has_pictures) facts.view = gimbal_view(a.view, read->model.view, geometry->box);
-  return Done{};
+  // An .svg is of the view if there is one.
+  std::vector<Output> shapes, lines;
+  for (const Output& output : outputs) {
+    const bool is_svg = output.format == ExportFormat(DrawingFormat::kSvg);
+    (is_svg && !read->model.drawing ? lines : shapes).push_back(output);
+  }
+  if (!shapes.empty()) {
+    std::vector<ShapeOutput> files;
+    for (const Output& output : shapes) files.push_back({output.path, output.format});
+    const Result<GeometryFacts> geometry = write_shape_files(
+        read->model, files,
+        {a.loading.curves, a.renderer.threads, a.loading.quiet, a.wants_statistics});
+    if (!geometry) return geometry.error();
+    made.add(shapes, *read);
+    if (made.code == kExitDone)
+      made.code = code_for(*read, loading, read->model.drawing ? "drawing" : "solid");
+    facts.geometry = *geometry;
+    facts.milliseconds += watch.milliseconds();
+    if (!has_pictures) facts.view = view_of_box(a, read->model, geometry->box);
+  }
+  return lines.empty() ? Done{} : write_lines(a, lines, true, made, facts);
 }
 
 /// Pictures first: what is no solid to print may well be seen.

@@ -111,6 +111,15 @@ std::vector<Pieces::Owner> first_owners(std::vector<Pieces::Owner> owners) {
   return owners;
 }
 
+/// The first half-space of every plane that bounds one.
+std::vector<uint32_t> first_half_spaces(std::span<const PlacedHalfSpace> half_spaces,
+                                        const Paints& paints, size_t planes) {
+  std::vector<uint32_t> firsts(planes);
+  for (size_t i = half_spaces.size(); i-- > 0;) firsts[half_spaces[i].plane] = uint32_t(i);
+  paints.spread(firsts);
+  return firsts;
+}
+
 /// Only planes have facets, and only what has an end fits into a file.
 Status check_solid(const Scene& scene) {
   if (!scene.bounded)
@@ -255,8 +264,10 @@ Result<SolidMesh> evaluate_solid(const Scene& scene, const Workers& workers, Bou
     s.pieces = pieces.count;
     s.outline_edges = outlines->edges.size() / 2;
     s.shared_edges = outlines->shared_edges;
-    SolidMesh mesh = finish(fill(*outlines, geometry, workers), *outlines,
-                            first_owners(pieces.owners), geometry, grid.per_unit(), scene.origin);
+    SolidMesh mesh =
+        finish(fill(*outlines, geometry, workers), *outlines, first_owners(pieces.owners),
+               first_half_spaces(half_spaces, paints, planes.size()), geometry, grid.per_unit(),
+               scene.origin);
     // Planes that were written to meet in one point do so but for rounding.
     constexpr double kRounding = 1e-12;
     s.collapsed = collapse_short_edges(mesh, kRounding * max_component(scene.region.size()));

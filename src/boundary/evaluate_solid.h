@@ -35,7 +35,6 @@ struct BoundarySettings {
   /// Pairs of half-spaces that meet in a leaf, of all leaves together: about what cutting takes.
   uint64_t pairs = UINT64_MAX;
   size_t pieces = SIZE_MAX;  ///< convex ones that cells cut
-  size_t pieces = SIZE_MAX;  ///< that the boundary is made of before it is joined
 };
 
 /// The boundary of the scene's solid; nothing of an empty one. Its corners are right to a few units

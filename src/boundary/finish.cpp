@@ -108,8 +108,8 @@ Vec3 rounded(const ExactPoint& point, double per_unit) {
 }  // namespace
 
 SolidMesh finish(const FilledFaces& filled, const FaceOutlines& outlines,
-                 const std::vector<Pieces::Owner>& owners, const ExactGeometry& geometry,
-                 double per_unit, Vec3 origin) {
+                 const std::vector<Pieces::Owner>& owners, const std::vector<uint32_t>& half_spaces,
+                 const ExactGeometry& geometry, double per_unit, Vec3 origin) {
   SolidMesh mesh;
   mesh.corners.reserve(filled.points.size());
   for (const uint32_t point : filled.points)
@@ -123,7 +123,10 @@ SolidMesh finish(const FilledFaces& filled, const FaceOutlines& outlines,
       const std::array<int64_t, 3>& n = geometry.plane(last >> 1).n;
       const Vec3 normal = normalize(Vec3{double(n[0]), double(n[1]), double(n[2])});
       while (owner->sheet != last) ++owner;
-      mesh.faces.push_back({last & 1 ? -normal : normal, owner->id, {}});
+      mesh.faces.push_back({.outward = last & 1 ? -normal : normal,
+                            .owner = owner->id,
+                            .half_space = half_spaces[last >> 1],
+                            .color = {}});
     }
     SolidMesh::Triangle numbered{{}, uint32_t(mesh.faces.size()) - 1};
     for (size_t i = 0; i < 3; ++i) numbered.corners[i] = filled.fans[triangle.corners[i]];

@@ -9,9 +9,10 @@
 
 namespace whittle {
 
-/// `owners`: of every sheet, by sheet. Coordinates are divided by `per_unit` and moved by `origin`.
+/// `owners`: of every sheet, by sheet. `half_spaces`: the first of every plane. Coordinates are
+/// divided by `per_unit` and moved by `origin`.
 SolidMesh finish(const FilledFaces& filled, const FaceOutlines& outlines,
-                 const std::vector<Pieces::Owner>& owners, const ExactGeometry& geometry,
-                 double per_unit, Vec3 origin);
+                 const std::vector<Pieces::Owner>& owners, const std::vector<uint32_t>& half_spaces,
+                 const ExactGeometry& geometry, double per_unit, Vec3 origin);
 
 }  // namespace whittle

@@ -33,4 +33,9 @@ uint32_t Paints::painted(uint32_t plane, uint32_t body) const {
   return found == copies_.end() ? plane : found->second;
 }
 
+void Paints::spread(std::vector<uint32_t>& by_plane) const {
+  for (const auto& [plane_and_paint, copy] : copies_)
+    by_plane[copy] = by_plane[plane_and_paint.first];
+}
+
 }  // namespace whittle

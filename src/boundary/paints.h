@@ -23,6 +23,8 @@ class Paints {
   bool are_several(uint32_t plane) const;
   /// The plane as it is for faces of a body.
   uint32_t painted(uint32_t plane, uint32_t body) const;
+  /// Gives what is known of a plane to all that it is as, too.
+  void spread(std::vector<uint32_t>& by_plane) const;
 
  private:
   std::span<const uint32_t> of_body_;

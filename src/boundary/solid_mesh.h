@@ -21,9 +21,10 @@ struct SolidMesh {
   /// A plane's side, as far as it is boundary, in one part or several; of those of one paint, if
   /// there were paints (evaluate_solid.h).
   struct Face {
-    Vec3 outward;        ///< unit normal
-    uint32_t owner = 0;  ///< id of the first body in the file that has a part of it
-    Rgba color{};        ///< the outermost valid color() above that; invalid if none
+    Vec3 outward;             ///< unit normal
+    uint32_t owner = 0;       ///< id of the first body in the file that has a part of it
+    uint32_t half_space = 0;  ///< of the scene, the first that its plane bounds
+    Rgba color{};             ///< the outermost valid color() above that; invalid if none
   };
   std::vector<Vec3> corners;  ///< world coordinates
   std::vector<Triangle> triangles;

@@ -1,0 +1,16 @@
+// Lines that go on from one another become paths.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lines/single_lines.h"
+
+namespace whittle {
+
+/// Points are rounded to multiples of `step`. Lines of one kind go on where their ends round to one
+/// point and no third one ends there. Points that lie on the line between their neighbours, but for
+/// rounding, are left out. By kind.
+std::vector<DrawnPath> chain_lines(std::span<const KindLine> lines, double step);
+
+}  // namespace whittle
