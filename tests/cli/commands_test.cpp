@@ -185,7 +185,7 @@ TEST_F(Cells, TheyAreDrawnOverTheRendering) {
     EXPECT_EQ(done.out + done.err, "");
     return *read_png(path("x.png"));
   };
-  const Picture model = picture({"part.csg", "-o", "x.png"});
+  const Picture model = picture({"part.csg", "-o", "x.png", "--style", "plain"});
   const Picture edges = picture({"cells", "part.csg", "-o", "x.png"});
   const Picture faces = picture({"cells", "part.csg", "-o", "x.png", "--show", "faces"});
   ASSERT_EQ(edges.rgba.size(), model.rgba.size());
@@ -223,7 +223,8 @@ TEST_F(Cells, WhatCannotBeIsRefused) {
 }
 
 TEST_F(Compare, EqualFactsAreEqualWhateverTheirColours) {
-  good({"part.csg", "-o", "a.exr", "--imgsize", "32,32"});
+  // Both framed as OpenSCAD does it.
+  good({"part.csg", "-o", "a.exr", "--imgsize", "32,32", "--style", "plain"});
   good({"part.csg", "-o", "b.exr", "--imgsize", "32,32", "--style", "blinn"});
   const Ended equal = good({"compare", "a.exr", "b.exr"});
   EXPECT_FALSE(equal.out.empty());

@@ -185,7 +185,8 @@ TEST_F(Render, StyleOpenscadHasOpenscadsVeryColours) {
 TEST_F(Render, EdgesAreSmoothedUnlessSwitchedOff) {
   write("plain.csg", "color([1, 1, 1]) cube(10);");
   const auto count_colors = [&](const std::string& aa) {
-    good({"plain.csg", "-o", "x.png", "--aa", aa, "--no-background", "--imgsize", "64,64"});
+    good({"plain.csg", "-o", "x.png", "--aa", aa, "--no-background", "--no-ground", "--imgsize",
+          "64,64"});
     const Picture picture = png("x.png");
     std::set<int> alphas;
     for (size_t i = 3; i < picture.rgba.size(); i += 4) alphas.insert(picture.rgba[i]);
@@ -193,9 +194,12 @@ TEST_F(Render, EdgesAreSmoothedUnlessSwitchedOff) {
   };
   EXPECT_EQ(count_colors("1"), 2u) << "hit or not";
   EXPECT_GT(count_colors("4"), 4u);
-  good({"plain.csg", "-o", "a.png", "--aa", "4", "--imgsize", "64,64"});
+  good({"plain.csg", "-o", "a.png", "--aa", "3", "--imgsize", "64,64"});
   good({"plain.csg", "-o", "b.png", "--imgsize", "64,64"});
-  EXPECT_TRUE(read("a.png") == read("b.png")) << "4 is the default";
+  EXPECT_TRUE(read("a.png") == read("b.png")) << "3 is the default";
+  good({"plain.csg", "-o", "a.png", "--aa", "2", "--quality", "draft", "--imgsize", "64,64"});
+  good({"plain.csg", "-o", "b.png", "--quality", "draft", "--imgsize", "64,64"});
+  EXPECT_TRUE(read("a.png") == read("b.png")) << "2 of a draft";
 }
 
 TEST_F(Render, PassesShowFacts) {
@@ -204,7 +208,8 @@ TEST_F(Render, PassesShowFacts) {
                                       "33,33"};
   const auto middle_of = [&](const char* pass) {
     std::vector<std::string> arguments = view;
-    arguments.insert(arguments.end(), {"-o", "x.png", "--pass", pass, "--no-background"});
+    arguments.insert(arguments.end(),
+                     {"-o", "x.png", "--pass", pass, "--no-background", "--no-ground"});
     good(arguments);
     const Picture picture = png("x.png");
     EXPECT_EQ(picture.at(0, 0)[3], 0) << pass << ": background is transparent";
