@@ -71,12 +71,14 @@ TEST(LineDrawing, ScaleIsOfTheDrawing) {
 }
 
 TEST(LineDrawing, BallIsACircle) {
-  const LineDrawing drawing = to_scale("sphere(r = 20);", {63, 11, 40});
-  ASSERT_EQ(drawing.paths.size(), 1u);
-  EXPECT_TRUE(drawing.paths[0].is_closed);
-  for (const Vec2 p : drawing.paths[0].points) {
-    EXPECT_LT(length(p), 20 + kStep);
-    EXPECT_GT(length(p), 20 - 2 * kFine);
+  for (const double r : {2.0, 5.0, 8.5, 20.0, 33.0, 120.0}) {
+    const LineDrawing drawing = to_scale("sphere(r = " + std::to_string(r) + ");", {63, 11, 40});
+    ASSERT_EQ(drawing.paths.size(), 1u) << r;
+    EXPECT_TRUE(drawing.paths[0].is_closed) << r;
+    for (const Vec2 p : drawing.paths[0].points) {
+      EXPECT_LT(length(p), r + kStep);
+      EXPECT_GT(length(p), r - 2 * kFine);
+    }
   }
 }
 
