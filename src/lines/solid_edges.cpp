@@ -55,6 +55,10 @@ double longest_edge(const SolidMesh& mesh, const SolidMesh::Triangle& triangle) 
   return longest;
 }
 
+/// A ball's facets are off by the fineness along both of its circles; and a little more, so as not
+/// to ask for the edge itself.
+constexpr double kStray = 3;
+
 /// How each face looks to the eye: the cosine, 0 or less where it does not.
 std::vector<double> facings(const SolidMesh& mesh, const Projection& projection, bool is_inside) {
   // What is seen along is not seen; rounding must not say otherwise.
@@ -101,9 +105,10 @@ class EdgeJudge {
       const bool is_crack = dot(true_left, true_right) < -0.99;
       const double sine = is_crease && !is_crack ? length(cross(true_left, true_right)) : 1;
       edge.doubt = Doubt::kMade;
-      edge.stray /= std::max(sine, kLeastSine);
+      edge.stray = kStray / std::max(sine, kLeastSine);
     } else if (!is_crease && normals_.body(mesh_.faces[left]) != 0) {
       edge.doubt = Doubt::kFold;
+      edge.stray = kStray / 2;
       edge.fold = 2 * longest;
     }
     const Vec3 way = normalize(to - from);

@@ -27,7 +27,7 @@ struct SolidEdge {
   bool may_be_seen = false;  ///< unless something is before it
   Doubt doubt = Doubt::kNone;
   /// In doubt, how far it may be from where it belongs; in units of the drawing's fineness.
-  double stray = 1.5;
+  double stray = 0;
   double fold = 0;  ///< of a possible fold, how long the folded part can be at most
   Vec3 inward;      ///< unit; from the edge into a face that looks to the eye, if there is one
 };
