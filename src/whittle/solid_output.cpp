@@ -57,8 +57,7 @@ Result<SolidMesh> solid_of(const Model& model, const Workers& workers, BoundaryS
 }
 
 Result<std::vector<std::vector<Vec2>>> drawing_of(const Model& model) {
-  if (!model.drawing)
-    return refused(model, "the model is not flat; .svg and .dxf hold only what is");
+  if (!model.drawing) return refused(model, "the model is not flat, so it has no outlines");
   if (model.drawing->outlines.empty()) return refused(model, "the drawing is empty");
   return model.drawing->outlines;
 }
