@@ -12,7 +12,7 @@
 namespace whittle {
 namespace {
 
-const Workers kWorkers(0);
+const Workers kOcclusionThreads(0);
 constexpr OcclusionSettings kGood{.reach = kInfinity, .rays = 1, .step = 4};
 constexpr OcclusionSettings kBest{.reach = kInfinity, .rays = 16, .step = 1};
 
@@ -26,7 +26,7 @@ std::vector<float> openness_of(SceneForTest& scene, const Camera& camera, const 
 double worst_error(SceneForTest& scene, const Camera& camera, const OcclusionSettings& settings,
                    const std::function<double(Vec3, uint32_t)>& known) {
   const Frame frame = scene.render(camera);
-  const std::vector<float> open = openness_of(scene, camera, frame, settings, kWorkers);
+  const std::vector<float> open = openness_of(scene, camera, frame, settings, kOcclusionThreads);
   double worst = 0;
   size_t count = 0;
   for (int y = 0; y < frame.height; ++y) {
@@ -116,7 +116,7 @@ TEST(Occlusion, FacesTooNarrowForTheLatticeSendRaysFromEveryPixel) {
   const Frame frame = scene.render(camera);
   ASSERT_EQ(frame.at(101, 100).id, 2u);
   ASSERT_NE(frame.at(100, 100).id, 2u);
-  const std::vector<float> open = openness_of(scene, camera, frame, kGood, kWorkers);
+  const std::vector<float> open = openness_of(scene, camera, frame, kGood, kOcclusionThreads);
   EXPECT_FLOAT_EQ(open[size_t(100 * 200 + 101)], 1);
   EXPECT_LT(open[size_t(100 * 200 + 97)], 0.75f) << "the floor beside it";
 }

@@ -10,7 +10,7 @@
 namespace whittle {
 namespace {
 
-const Workers kWorkers(0);
+const Workers kStudioThreads(0);
 constexpr Box kCube{{-1, -1, 0}, {1, 1, 2}};
 
 /// Of OpenSCAD's default view, with room around the cube.
@@ -33,7 +33,7 @@ struct Shot {
   Picture picture;
   size_t cast_rays = 0;
 };
-Shot shoot(const ShadeSettings& settings, int n = 3, const Workers& workers = kWorkers) {
+Shot shoot(const ShadeSettings& settings, int n = 3, const Workers& workers = kStudioThreads) {
   SceneForTest scene;
   scene.add_box(kCube);
   const Camera camera = slanted_camera();
@@ -132,9 +132,9 @@ TEST(Studio, AnEyeBelowTheGroundSeesNone) {
   const Camera camera = make_camera(options, {}, {});
   const Frame frame = scene.render(camera);
   ShadeSettings settings = studio();
-  const Picture with = shade_studio(scene, camera, frame, {}, settings, 1, kWorkers);
+  const Picture with = shade_studio(scene, camera, frame, {}, settings, 1, kStudioThreads);
   settings.ground = false;
-  EXPECT_EQ(shade_studio(scene, camera, frame, {}, settings, 1, kWorkers).rgba, with.rgba);
+  EXPECT_EQ(shade_studio(scene, camera, frame, {}, settings, 1, kStudioThreads).rgba, with.rgba);
 }
 
 TEST(Studio, ALinePartsWhatLooksAlike) {
@@ -146,7 +146,7 @@ TEST(Studio, ALinePartsWhatLooksAlike) {
   const Frame frame = scene.render(camera);
   ShadeSettings settings = studio();
   settings.quality = Quality::kDraft;
-  const Picture picture = shade_studio(scene, camera, frame, {}, settings, 3, kWorkers);
+  const Picture picture = shade_studio(scene, camera, frame, {}, settings, 3, kStudioThreads);
   const int level = brightness(picture, 5, 20);
   EXPECT_EQ(brightness(picture, 35, 20), level) << "both look alike";
   EXPECT_LT(std::min(brightness(picture, 19, 20), brightness(picture, 20, 20)), level * 5 / 6);
@@ -164,7 +164,7 @@ TEST(Studio, ALineKeepsItsWeightWhereverItFallsBetweenPixels) {
     ShadeSettings settings = studio();
     settings.quality = Quality::kDraft;
     const Picture picture =
-        shade_studio(scene, camera, scene.render(camera), {}, settings, 4, kWorkers);
+        shade_studio(scene, camera, scene.render(camera), {}, settings, 4, kStudioThreads);
     int weight = 0;
     for (int x = 10; x < 30; ++x) weight += brightness(picture, 5, 20) - brightness(picture, x, 20);
     weights.push_back(weight);
@@ -188,8 +188,8 @@ TEST(Studio, ADeepHoleIsDark) {
     const Camera camera = camera_from_above(80, 4);
     ShadeSettings settings = studio();
     settings.solid = {{-9, -9, 0}, {9, 9, 4}};
-    return brightness(shade_studio(scene, camera, scene.render(camera), {}, settings, 3, kWorkers),
-                      40, 40);
+    return brightness(
+        shade_studio(scene, camera, scene.render(camera), {}, settings, 3, kStudioThreads), 40, 40);
   };
   EXPECT_LT(floor_brightness(4), floor_brightness(0) * 3 / 4);
   EXPECT_LT(floor_brightness(1), floor_brightness(0) - 30);
@@ -202,7 +202,7 @@ TEST(Studio, StoppedItReturnsSoon) {
   const Frame frame = scene.render(camera);
   std::stop_source source;
   source.request_stop();
-  shade_studio(scene, camera, frame, {}, studio(), 3, kWorkers, source.get_token());
+  shade_studio(scene, camera, frame, {}, studio(), 3, kStudioThreads, source.get_token());
   EXPECT_EQ(scene.cast_rays, 0u);
 }
 
