@@ -67,7 +67,8 @@ FileOptions read_options(const Loading& loading) {
                       .solid_box = tight_box,
                       .closed_mesh = mesh_maker(loading.threads ? *loading.threads : 0)},
           .import_root = loading.import_root,
-          .flatten = std::move(flatten)};
+          .flatten = std::move(flatten),
+          .standard_input = loading.standard_input.get()};
 }
 
 Status say_warnings(const Read& read, const Loading& loading) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -27,6 +28,8 @@ struct Loading {
   ScadArguments scad;
   const ViewOptions* view = nullptr;  ///< openscad is told its camera
   const int* threads = nullptr;       ///< what --threads says
+  /// As FileOptions::standard_input; null: it is read once.
+  std::shared_ptr<std::optional<std::string>> standard_input;
 };
 void add_loading_options(CommandLine& line, Loading& loading);
 /// --lenient, of what makes pictures.

@@ -110,7 +110,7 @@ void add_mass_options(CLI::App& app, MassArguments& mass, Loading& loading) {
                    mass.is_wanted = true;
                  });
   group.add_number("--within", "X", mass.within, kLeastWithin, 1,
-                   "how well the volume of true curves is to be known, as a share of it (1e-6)");
+                   "how well to know the volume of true curves, a share of it (1e-6)");
   machine.add_count("--threads", "N", mass.threads, 0, kMostThreads, "0: all there are");
   loading.threads = &mass.threads;
 }

@@ -100,8 +100,8 @@ void add_options(CommandLine& line, RenderArguments& a) {
   OptionGroup output(app, "Output"), look(app, "Look"), machine(app, "Machine");
   output.add_each("-o", "OUT",
                   "a picture (.png, .exr), the solid (.stl, .off, .obj, .3mf, .amf)\n"
-                  "or a drawing (.svg, .dxf), each -o one; '-': standard output;\n"
-                  "{name} in it is FILE's name",
+                  "or a drawing (.svg, .dxf; of a solid an .svg, in lines), each -o\n"
+                  "one; '-': standard output; {name} in it is FILE's name",
                   [&](const std::string& path) { a.outputs.push_back(path); });
   output.add_text(
       "--export-format", "NAME", names_of(export_format_choices()) + ",\nwhatever OUT ends in",
@@ -380,6 +380,8 @@ Status write_shapes(RenderArguments& a, const std::vector<Output>& outputs, bool
 Status render_still(RenderArguments& a, const std::vector<Output>& outputs, Made& made) {
   std::vector<Output> pictures, shapes;
   for (const Output& output : outputs) (output.is_picture() ? pictures : shapes).push_back(output);
+  // What has facets is read on its own.
+  if (!shapes.empty()) a.loading.standard_input = std::make_shared<std::optional<std::string>>();
   SummaryFacts facts;
   if (!pictures.empty() || a.reference.file) {
     const Stopwatch watch;

@@ -126,8 +126,11 @@ Result<Read> read_plain(const std::string& path, const FileOptions& options) {
   if (const std::unique_ptr<FileText> large = large_text(path, most_bytes)) {
     return with_file(read_text_of(path, *large, options));
   }
-  const Result<std::string> text = read_text(path, most_bytes);
+  std::optional<std::string>* const kept = path == "-" ? options.standard_input : nullptr;
+  const Result<std::string> text =
+      kept && *kept ? Result<std::string>(**kept) : read_text(path, most_bytes);
   if (!text) return text.error();
+  if (kept && !*kept) *kept = *text;
   if (const std::optional<std::string> foreign = describe_foreign(*text)) {
     return Error{ErrorKind::kInput, fmt::format("{}: error: {}", name, *foreign)};
   }

@@ -28,6 +28,8 @@ struct FileOptions {
   /// With it only files in this folder tree are read for the text, all links resolved.
   std::optional<std::string> import_root{};
   FlattenOptions flatten{};
+  /// For who reads "-" again: standard input goes there when it is read, and is taken from there.
+  std::optional<std::string>* standard_input = nullptr;
 };
 
 /// Reads a file; "-" is standard input. A name that ends in .scad is first evaluated by the

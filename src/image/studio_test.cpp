@@ -90,8 +90,9 @@ TEST(Studio, WhatStandsOnTheGroundDarkensIt) {
       const auto is_hit = [&](int px, int py) { return frame.at(px, py).hit(); };
       if (x > 0 && y > 0 && x + 1 < frame.width && y + 1 < frame.height && is_hit(x - 1, y) &&
           is_hit(x + 1, y) && is_hit(x, y - 1) && is_hit(x, y + 1) && is_hit(x - 1, y - 1) &&
-          is_hit(x + 1, y + 1) && is_hit(x - 1, y + 1) && is_hit(x + 1, y - 1))
+          is_hit(x + 1, y + 1) && is_hit(x - 1, y + 1) && is_hit(x + 1, y - 1)) {
         EXPECT_EQ(brightness(shaded, x, y), brightness(bare, x, y)) << x << ", " << y;
+      }
     }
 }
 

@@ -19,7 +19,9 @@ void expect_all_found(const std::vector<Segment>& segments, const std::vector<Se
     std::vector<bool> found(segments.size(), false);
     grid.for_near(one, [&](uint32_t i) { found[i] = true; });
     for (size_t i = 0; i < segments.size(); ++i)
-      if (cross_one_another(one, segments[i])) EXPECT_TRUE(found[i]);
+      if (cross_one_another(one, segments[i])) {
+        EXPECT_TRUE(found[i]);
+      }
   }
 }
 

@@ -63,8 +63,7 @@ Result<SolidMesh> solid_or_nothing_of(const Model& model, const Workers& workers
 }
 
 Result<std::vector<std::vector<Vec2>>> drawing_of(const Model& model) {
-  if (!model.drawing)
-    return refused(model, "the model is not flat; .svg and .dxf hold only what is");
+  if (!model.drawing) return refused(model, "the model is not flat, so it has no outlines");
   if (model.drawing->outlines.empty()) return refused(model, "the drawing is empty");
   return model.drawing->outlines;
 }

@@ -184,8 +184,8 @@ TEST_F(ManyFiles, MemoryBoundsHowManyAreDrawnAtATime) {
   const Ended ended = run(arguments);
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   for (int i = 0; i < 8; ++i) EXPECT_EQ(read("big" + std::to_string(i) + ".png"), read("x.png"));
-  // All at a time take six times as much.
-  EXPECT_LT(ended.peak_memory_bytes, 3 * alone.peak_memory_bytes);
+  // Half of what there is; all at a time take more.
+  EXPECT_LT(ended.peak_memory_bytes, 200'000'000u);
 }
 #endif
 

@@ -113,6 +113,19 @@ TEST_F(SolidFiles, APictureIsMadeOfWhatIsNoSolid) {
   EXPECT_EQ(files(), (std::vector<std::string>{"a.png", "none.csg", "plate.csg"}));
 }
 
+TEST_F(SolidFiles, StandardInputIsReadOnceForAll) {
+  write("box.csg", "cube(size = [1, 2, 3], center = false);");
+  const std::vector<std::string> outputs{"-o", "b.png", "-o", "b.stl", "-o", "b.svg"};
+  std::vector<std::string> arguments{"-"};
+  arguments.insert(arguments.end(), outputs.begin(), outputs.end());
+  const Ended done = run(arguments, {.in = "cube(size = [1, 2, 3], center = false);"});
+  EXPECT_EQ(done.exit_code, 0);
+  EXPECT_EQ(done.err, "");
+  const std::string stl = read("b.stl");
+  EXPECT_EQ(run({"box.csg", "-o", "c.stl"}).exit_code, 0);
+  EXPECT_EQ(stl, read("c.stl"));
+}
+
 TEST_F(SolidFiles, WhatIsLeftOutIsNoSuccess) {
   write("part.csg", "cube(size = 1); roof() square(size = 1);\n");
   const Ended done = run({"part.csg", "-o", "a.stl", "-q"});
@@ -205,9 +218,9 @@ TEST_F(DrawingFiles, WhatIsNotFlatIsRefused) {
   write("none.csg",
         "intersection() { square(size = 1); }\n"
         "intersection() { square(size = 0); }\n");
-  const Ended solid = run({"cube.csg", "-o", "a.svg"});
+  const Ended solid = run({"cube.csg", "-o", "a.dxf"});
   EXPECT_EQ(solid.exit_code, 1);
-  EXPECT_EQ(solid.err, "cube.csg: error: the model is not flat; .svg and .dxf hold only what is\n");
+  EXPECT_EQ(solid.err, "cube.csg: error: the model is not flat, so it has no outlines\n");
   write("square.csg", "square(size = 1);\n");
   const Ended smooth = run({"square.csg", "-o", "a.dxf", "--curves", "smooth"});
   EXPECT_EQ(smooth.exit_code, 0) << smooth.err;
