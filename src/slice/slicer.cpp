@@ -31,9 +31,8 @@ struct Side {
   uint32_t face;
 };
 
-/// Whether the way from a to c passes b.
-bool is_between(Vec2 a, Vec2 b, Vec2 c, double rounding) {
-  return dot(b - a, c - b) >= 0 && std::fabs(cross(b - a, c - a)) <= rounding * length(c - a);
+bool is_on_line(Vec2 p, Vec2 a, Vec2 b, double rounding) {
+  return std::fabs(cross(p - a, b - a)) <= rounding * length(b - a);
 }
 
 /// Leaves out sides without length, and ways there and back, which enclose nothing.
@@ -54,7 +53,7 @@ std::vector<Side> without_spikes(const std::vector<Side>& sides) {
 /// Sides of one face that go on from one another become one.
 Contour corners_of(const std::vector<Side>& sides, double rounding) {
   const auto go_on = [rounding](const Side& a, const Side& b) {
-    return a.face == b.face && is_between(a.from, b.from, b.to, rounding);
+    return a.face == b.face && is_on_line(b.from, a.from, b.to, rounding);
   };
   std::vector<Side> joined;
   for (const Side& side : sides) {

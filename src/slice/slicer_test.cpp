@@ -148,12 +148,25 @@ TEST(Slicer, LeavesOutWaysThereAndBack) {
       " polyhedron(points = [[3, 2, 2], [9, 2, 2], [3, 1, 3], [9, 1, 3], [3, 3, 3], [9, 3, 3]],"
       " faces = [[0, 2, 4], [1, 5, 3], [0, 1, 3, 2], [0, 4, 5, 1], [2, 3, 5, 4]]); }");
   ASSERT_EQ(manifold_fault(mesh), "");
-  const Slicer slicer(mesh);
-  const std::vector<Contour> at_edge = slicer.at(2);
-  ASSERT_EQ(at_edge.size(), 1u);
-  for (const Vec2& corner : at_edge[0]) EXPECT_LE(corner.x, 4) << "there is nothing out there";
-  EXPECT_DOUBLE_EQ(area(at_edge), 16);
-  EXPECT_DOUBLE_EQ(area(slicer.at(2.5)), 16 + 5 * 1);
+  EXPECT_DOUBLE_EQ(area(Slicer(mesh).at(2.5)), 16 + 5 * 1);
+  // Loops begin where corners have the least numbers, so each place is the first one once.
+  const auto n = uint32_t(mesh.corners.size());
+  for (uint32_t shift = 0; shift < n; ++shift) {
+    SolidMesh other = mesh;
+    for (uint32_t i = 0; i < n; ++i) other.corners[(i + shift) % n] = mesh.corners[i];
+    for (SolidMesh::Triangle& triangle : other.triangles)
+      for (uint32_t& corner : triangle.corners) corner = (corner + shift) % n;
+    const std::vector<Contour> loops = Slicer(other).at(2);
+    ASSERT_EQ(loops.size(), 1u);
+    for (const Vec2& corner : loops[0]) EXPECT_LE(corner.x, 4) << "there is nothing out there";
+    EXPECT_DOUBLE_EQ(area(loops), 16);
+  }
+}
+
+TEST(Slicer, SidesOfDifferentFacesStayApart) {
+  SolidMesh mesh = mesh_of_text("cube(size = [2, 3, 4]);");
+  for (uint32_t i = 0; i < mesh.triangles.size(); ++i) mesh.triangles[i].face = i;
+  EXPECT_EQ(Slicer(mesh).at(1).at(0).size(), 8u);
 }
 
 /// What touches along an upright edge stays in two loops, and the sum of both is right.
@@ -237,6 +250,22 @@ TEST(Slicer, FindsEveryTriangle) {
     ASSERT_EQ(slicer.at(z).size(), 1u) << z;
     EXPECT_EQ(slicer.at(z)[0].size(), size_t(crossed) / 2) << z;
   }
+}
+
+TEST(Slicer, IsTheSameFromManyThreads) {
+  const SolidMesh mesh = mesh_of_text(random_tree(3, {.primitives = 30}));
+  const Slicer slicer(mesh);
+  const auto height = [](size_t i) { return -12 + 24.0 * double(i) / 64; };
+  std::vector<std::vector<Contour>> layers(64);
+  Workers(4).for_parts(layers.size(), 1, [&](size_t first, size_t last, size_t) {
+    for (size_t i = first; i < last; ++i) layers[i] = slicer.at(height(i));
+  });
+  size_t loops = 0;
+  for (size_t i = 0; i < layers.size(); ++i) {
+    EXPECT_EQ(layers[i], slicer.at(height(i))) << i;
+    loops += layers[i].size();
+  }
+  EXPECT_GT(loops, 0u);
 }
 
 TEST(Slicer, OfNothingIsNothing) {
