@@ -90,7 +90,7 @@ Result<bool> write_pngs(const Slicer& slicer, const PixelFrame& frame,
       const std::vector<Contour> loops = slicer.at(settings.heights[i]);
       if (!loops.empty()) has_any = true;
       const Status written =
-          write_output(settings.paths[i], encode_png(picture_of(loops, frame), false));
+          write_output(settings.paths[i], encode_grey_png(picture_of(loops, frame)));
       if (!written) {
         const std::lock_guard lock(mutex);
         if (!error) error = written.error();
