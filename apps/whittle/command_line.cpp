@@ -129,11 +129,10 @@ void add_view_options(CLI::App& app, ViewOptions& view, Loading& loading) {
   loading.view = &view;
 }
 
-void add_view_options(CLI::App& app, ViewOptions& view) {
-  OptionGroup group(app, "View, as in OpenSCAD");
+void add_size_option(OptionGroup& group, const std::function<void(int, int)>& set) {
   group.add_text(
       "--imgsize", "W,H", "pixels (512,512); each at most 65535, together 2^28",
-      [&](const std::string& text) {
+      [set](const std::string& text) {
         if (text.find_first_of("xX*") != std::string::npos && text.find(',') == std::string::npos) {
           refuse("--imgsize", fmt::format("wants W,H as in 800,600, not {}", text));
         }
@@ -149,9 +148,16 @@ void add_view_options(CLI::App& app, ViewOptions& view) {
         }
         const Status possible = check_picture_size(int64_t(width), int64_t(height));
         if (!possible) refuse("--imgsize", possible.error().message);
-        view.width = int(width);
-        view.height = int(height);
+        set(int(width), int(height));
       });
+}
+
+void add_view_options(CLI::App& app, ViewOptions& view) {
+  OptionGroup group(app, "View, as in OpenSCAD");
+  add_size_option(group, [&view](int width, int height) {
+    view.width = width;
+    view.height = height;
+  });
   group.add_text("--camera", "NUMBERS",
                  "tx,ty,tz,rx,ry,rz,d: target, degrees, distance; or\n"
                  "ex,ey,ez,cx,cy,cz: eye, and the point it looks at",

@@ -1,6 +1,7 @@
 // The options that commands share.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,6 +50,9 @@ void say_if_nothing_is_seen(const Model& model, const Frame& frame, const Loadin
 /// The exit code of what was made ("picture") and written. If something was left out that is no
 /// success, unless --lenient accepts it; then says so.
 int code_for(const Read& read, const Loading& loading, const char* made);
+
+/// --imgsize; `set` is told width and height.
+void add_size_option(OptionGroup& group, const std::function<void(int, int)>& set);
 
 /// --imgsize, --camera and what belongs to them.
 void add_view_options(CLI::App& app, ViewOptions& view);

@@ -18,5 +18,6 @@ int devices_command(Arguments arguments);
 int pick_command(Arguments arguments);
 int cast_command(Arguments arguments);
 int measure_command(Arguments arguments);
+int slice_command(Arguments arguments);
 
 }  // namespace whittle

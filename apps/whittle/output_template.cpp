@@ -70,9 +70,8 @@ Result<std::string> fill_template(std::string_view pattern, const TemplateWords&
           }
         } else {
           blame(
-              fmt::format("there is no {{{}}}; there are {{name}} and, with --animate, {{n}}, "
-                          "and {{{{ is a brace",
-                          word));
+              fmt::format("there is no {{{}}}; there are {{name}} and{} {{n}}, and {{{{ is a brace",
+                          word, words.n ? "" : ", with --animate,"));
         }
       });
   if (!is_closed) blame("a brace is not closed; {{ is one that stands for itself");

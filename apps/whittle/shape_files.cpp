@@ -62,12 +62,7 @@ Result<GeometryFacts> write_solids(const Model& model, const std::vector<ShapeOu
     return solid_of(model, workers, &stats);
   };
   const Result<SolidMesh> mesh = evaluate();
-  if (!mesh) {
-    Error error = mesh.error();
-    if (error.kind == ErrorKind::kInput && has_true_curves(model))
-      error.message += reason_for_curves(settings.curves);
-    return error;
-  }
+  if (!mesh) return explain_curves(mesh.error(), model, settings.curves);
   const double evaluated = watch.milliseconds();
   for (const ShapeOutput& output : outputs) {
     const Result<SolidFile> file =
@@ -108,6 +103,12 @@ Result<GeometryFacts> write_drawings(const Model& model, const std::vector<Shape
 }
 
 }  // namespace
+
+Error explain_curves(Error error, const Model& model, Curves asked) {
+  if (error.kind == ErrorKind::kInput && has_true_curves(model))
+    error.message += reason_for_curves(asked);
+  return error;
+}
 
 Result<GeometryFacts> write_shape_files(const Model& model, const std::vector<ShapeOutput>& outputs,
                                         const ShapeFileSettings& settings) {

@@ -23,6 +23,10 @@ struct ShapeFileSettings {
   bool wants_statistics = false;
 };
 
+/// An error of evaluating the solid; if there are true curves, where facets were to be made, it
+/// says why.
+Error explain_curves(Error error, const Model& model, Curves asked);
+
 /// Evaluates the model once and writes all files. Says if a file holds less than the solid.
 Result<GeometryFacts> write_shape_files(const Model& model, const std::vector<ShapeOutput>& outputs,
                                         const ShapeFileSettings& settings);

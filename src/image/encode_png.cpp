@@ -40,8 +40,8 @@ void put_chunk(std::string& bytes, const char* name, std::string_view data) {
 /// Turns rows into what is compressed: a byte that says how, and differences.
 class RowFilter {
  public:
-  RowFilter(const Picture& picture, bool with_alpha)
-      : picture_(picture), channels_(with_alpha ? 4 : 3), above_first_(4 * size_t(picture.width)) {}
+  RowFilter(const Picture& picture, size_t channels)
+      : picture_(picture), channels_(channels), above_first_(4 * size_t(picture.width)) {}
 
   size_t row_bytes() const { return 1 + channels_ * size_t(picture_.width); }
 
@@ -52,6 +52,10 @@ class RowFilter {
     *to++ = kUp;
     if (channels_ == 4) {
       for (size_t i = 0; i < 4 * pixels; ++i) to[i] = uint8_t(here[i] - above[i]);
+      return;
+    }
+    if (channels_ == 1) {
+      for (size_t i = 0; i < pixels; ++i) to[i] = uint8_t(here[4 * i] - above[4 * i]);
       return;
     }
     for (size_t i = 0; i < pixels; ++i) {
@@ -108,11 +112,10 @@ struct Stripe {
   size_t bytes = 0;
 };
 
-}  // namespace
-
-std::string encode_png(const Picture& picture, bool with_alpha, const Workers* workers) {
+/// The file with the first `channels` of a picture: 1, 3 or 4.
+std::string encode_channels(const Picture& picture, size_t channels, const Workers* workers) {
   WHITTLE_CHECK(picture.width > 0 && picture.height > 0);
-  const RowFilter filter(picture, with_alpha);
+  const RowFilter filter(picture, channels);
   const size_t row_bytes = filter.row_bytes(), height = size_t(picture.height);
   const size_t rows_each = std::max(size_t(1), kStripe / row_bytes);
   std::vector<Stripe> stripes((height + rows_each - 1) / rows_each);
@@ -136,7 +139,7 @@ std::string encode_png(const Picture& picture, bool with_alpha, const Workers* w
   put_word(header, uint32_t(picture.width));
   put_word(header, uint32_t(picture.height));
   // Eight bits, which channels, and the only ways there are to compress, filter and interlace.
-  header.append({8, char(with_alpha ? 6 : 2), 0, 0, 0});
+  header.append({8, char(channels == 4 ? 6 : channels == 3 ? 2 : 0), 0, 0, 0});
   std::string bytes = "\x89PNG\r\n\x1a\n";
   put_chunk(bytes, "IHDR", header);
   put_chunk(bytes, "sRGB", std::string_view("\0", 1));
@@ -153,6 +156,16 @@ std::string encode_png(const Picture& picture, bool with_alpha, const Workers* w
   put_chunk(bytes, "IDAT", end);
   put_chunk(bytes, "IEND", "");
   return bytes;
+}
+
+}  // namespace
+
+std::string encode_png(const Picture& picture, bool with_alpha, const Workers* workers) {
+  return encode_channels(picture, with_alpha ? 4 : 3, workers);
+}
+
+std::string encode_grey_png(const Picture& picture, const Workers* workers) {
+  return encode_channels(picture, 1, workers);
 }
 
 }  // namespace whittle

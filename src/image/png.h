@@ -14,6 +14,9 @@ namespace whittle {
 /// not empty.
 std::string encode_png(const Picture& picture, bool with_alpha, const Workers* workers = nullptr);
 
+/// The same as 8-bit grey, the picture's red.
+std::string encode_grey_png(const Picture& picture, const Workers* workers = nullptr);
+
 /// Reads any PNG as 8-bit RGBA.
 Result<Picture> read_png(const std::string& path);
 

@@ -51,12 +51,27 @@ TEST(Png, WithoutAlphaTheColorsStay) {
   }
 }
 
+TEST(Png, GreyIsRed) {
+  const Picture p = random_picture(301, 617, 7);
+  const TestFolder folder;
+  const std::string file_name = folder / "x.png";
+  const std::string& path = file_name;
+  const std::string bytes = encode_grey_png(p);
+  EXPECT_EQ(bytes[25], 0) << "the type of colour is grey";
+  write_bytes(path, bytes);
+  const Result<Picture> read = read_png(path);
+  ASSERT_TRUE(read);
+  for (size_t i = 0; i < p.rgba.size(); ++i)
+    ASSERT_EQ(read->rgba[i], i % 4 == 3 ? 255 : p.rgba[i - i % 4]) << i;
+}
+
 TEST(Png, ThreadsMakeTheSameBytes) {
   const Workers workers(3);
   for (const auto& [width, height] : {std::pair(1, 1), std::pair(700, 500), std::pair(50000, 5)}) {
     const Picture p = random_picture(width, height, 9);
     for (const bool with_alpha : {false, true})
       EXPECT_EQ(encode_png(p, with_alpha), encode_png(p, with_alpha, &workers));
+    EXPECT_EQ(encode_grey_png(p), encode_grey_png(p, &workers));
   }
 }
 

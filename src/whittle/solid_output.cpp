@@ -38,6 +38,14 @@ bool has_true_curves(const Model& model) {
 
 Result<SolidMesh> solid_of(const Model& model, const Workers& workers, BoundaryStats* stats,
                            BoundarySettings settings) {
+  Result<SolidMesh> mesh = solid_or_nothing_of(model, workers, stats, settings);
+  if (mesh && mesh->triangles.empty() && !settings.stop.stop_requested())
+    return refused(model, "the solid is empty");
+  return mesh;
+}
+
+Result<SolidMesh> solid_or_nothing_of(const Model& model, const Workers& workers,
+                                      BoundaryStats* stats, BoundarySettings settings) {
   if (model.drawing)
     return refused(model, "the model is flat, not a solid; .svg and .dxf hold what is flat");
   const Result<Scene> scene = lower(model, &workers);
@@ -50,8 +58,6 @@ Result<SolidMesh> solid_of(const Model& model, const Workers& workers, BoundaryS
     return mesh.error().kind == ErrorKind::kInput ? refused(model, mesh.error().message)
                                                   : mesh.error();
   }
-  if (mesh->triangles.empty() && !settings.stop.stop_requested())
-    return refused(model, "the solid is empty");
   for (SolidMesh::Face& face : mesh->faces) face.color = looks[face.owner].color;
   return mesh;
 }

@@ -22,6 +22,11 @@ bool has_true_curves(const Model& model);
 Result<SolidMesh> solid_of(const Model& model, const Workers& workers,
                            BoundaryStats* stats = nullptr, BoundarySettings settings = {});
 
+/// The same; without triangles if the solid is empty.
+Result<SolidMesh> solid_or_nothing_of(const Model& model, const Workers& workers,
+                                      BoundaryStats* stats = nullptr,
+                                      BoundarySettings settings = {});
+
 /// The loops around a model that is flat; it was read with Drawing's outlines. A kInput error, with
 /// the file's name, if it is not, or is empty.
 Result<std::vector<std::vector<Vec2>>> drawing_of(const Model& model);
