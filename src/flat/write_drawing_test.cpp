@@ -25,7 +25,7 @@ Polygons read_again(const std::string& file, DrawingFormat format) {
   return polygons ? *polygons : Polygons{};
 }
 
-double area(const Polygons& polygons) {
+double drawn_area(const Polygons& polygons) {
   double twice = 0;
   for (const Contour& contour : polygons.contours)
     for (size_t i = 0; i < contour.size(); ++i) {
@@ -72,7 +72,7 @@ TEST(WriteDrawing, AnSvgReadAgainIsTheSameInAnotherPlace) {
   const Polygons again =
       read_again(write_drawing(plate(), DrawingFormat::kSvg), DrawingFormat::kSvg);
   EXPECT_EQ(again.contours.size(), plate().size());
-  EXPECT_NEAR(area(again), area(Polygons{plate()}), 1e-12);
+  EXPECT_NEAR(drawn_area(again), drawn_area(Polygons{plate()}), 1e-12);
   const Rect before = bounds(Polygons{plate()}), after = bounds(again);
   EXPECT_NEAR(after.hi.x - after.lo.x, before.hi.x - before.lo.x, 1e-12);
   EXPECT_NEAR(after.hi.y - after.lo.y, before.hi.y - before.lo.y, 1e-12);

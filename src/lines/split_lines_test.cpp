@@ -5,7 +5,7 @@
 namespace whittle {
 namespace {
 
-const Workers kWorkers(2);
+const Workers kSplitThreads(2);
 const Projection kAbove = [] {
   Camera camera;
   camera.up = {0, 1, 0}, camera.forward = {0, 0, -1};
@@ -20,7 +20,7 @@ DrawnLine line(Vec3 from, Vec3 to) {
 std::vector<double> cuts(const std::vector<DrawnLine>& covering) {
   const std::vector<DrawnLine> lines = {line({0, 0, 0}, {10, 0, 0})};
   std::vector<double> places;
-  const auto parts = split_lines(lines, covering, kAbove, 1e-3, kWorkers);
+  const auto parts = split_lines(lines, covering, kAbove, 1e-3, kSplitThreads);
   EXPECT_TRUE(parts);
   if (!parts) return {};
   for (const LinePart& part : *parts) places.push_back(part.to);
