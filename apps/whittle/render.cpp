@@ -130,7 +130,7 @@ void add_options(CommandLine& line, RenderArguments& a) {
   add_color_options(app, a.shading);
   add_shadow_option(app, a.shading);
   look.add_count("--aa", "N", a.antialias, 1, kMostAntialias,
-                 "N x N rays a pixel at edges, 1 to 16 (studio: 3)");
+                 "N x N rays a pixel at edges, 1 to 16 (studio: 3, plain: 4)");
   look.add_flag("--no-background", a.no_background, "what is not hit is transparent");
   add_loading_options(line, a.loading);
   add_lenient_option(app, a.loading);
