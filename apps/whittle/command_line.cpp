@@ -201,10 +201,15 @@ void add_shadow_option(CLI::App& app, ShadeSettings& shading) {
                 "lights reach only what they see (not in style openscad)");
 }
 
+void add_style_option(CLI::App& app, Style& style) {
+  OptionGroup(app, "Look").add_choice("--style", style_choices(), "style", "{}", [&](Style chosen) {
+    style = chosen;
+  });
+}
+
 void add_style_options(CLI::App& app, ShadeSettings& shading) {
+  add_style_option(app, shading.style);
   OptionGroup group(app, "Look");
-  group.add_choice("--style", style_choices(), "style", "{}",
-                   [&](Style style) { shading.style = style; });
   group.add_choice("--quality", quality_choices(), "quality",
                    "style studio: {} (good); draft: no rays for\nshadows, best: many",
                    [&](Quality quality) { shading.quality = quality; });

@@ -65,6 +65,8 @@ void add_color_options(CLI::App& app, ShadeSettings& shading);
 /// --shadows.
 void add_shadow_option(CLI::App& app, ShadeSettings& shading);
 
+/// --style alone.
+void add_style_option(CLI::App& app, Style& style);
 /// --style; --quality and --no-ground, which are of style studio.
 void add_style_options(CLI::App& app, ShadeSettings& shading);
 

@@ -102,6 +102,31 @@ void add_inquiry_options(CommandLine& line, InquiryArguments& a) {
   add_machine_options(line.app(), a.renderer, a.loading);
 }
 
+void add_picture_options(CommandLine& line, InquiryArguments& a) {
+  add_view_options(line.app(), a.view, a.loading);
+  add_style_option(line.app(), a.style);
+}
+
+void settle_picture(InquiryArguments& a) {
+  suit_style(a.style, a.loading);
+  a.view.tight = frames_tightly(a.style);
+}
+
+Position parse_position(const std::string& text) {
+  const std::vector<double> at = parse_numbers("--at", text, 2);
+  return {at[0], at[1]};
+}
+
+Status check_positions(std::span<const Position> positions, const ViewOptions& view) {
+  for (const auto& [x, y] : positions) {
+    if (x >= 0 && x < view.width && y >= 0 && y < view.height) continue;
+    return Error{ErrorKind::kUsage,
+                 fmt::format("--at {},{} is outside of the picture, which has {} x {} pixels",
+                             text_of(x), text_of(y), view.width, view.height)};
+  }
+  return Done{};
+}
+
 std::string text_of(double number) {
   return fmt::format("{:.9g}", number == 0 ? 0 : number);
 }
@@ -143,8 +168,8 @@ Status Inquiry::cast_through(std::span<const Ray> rays, RayCrossings& found) {
   return renderer_->cast_through(rays, found);
 }
 
-Result<std::optional<Picked>> Inquiry::pick(double x, double y) {
-  const Ray ray = camera_.ray(x, y);
+Result<std::optional<Picked>> Inquiry::pick(const Position& at) {
+  const Ray ray = camera_.ray(at.x, at.y);
   RayCrossings found;
   if (Status cast = cast_through({&ray, 1}, found); !cast) return cast.error();
   if (found.all.empty()) return std::optional<Picked>();

@@ -18,11 +18,25 @@ struct InquiryArguments {
   std::string file;
   Loading loading;
   ViewOptions view;
+  Style style = ShadeSettings{}.style;  ///< of the picture that is asked about
   RendererSettings renderer;
   bool wants_json = false;
 };
 /// FILE, --json, and the options of reading and of the machine.
 void add_inquiry_options(CommandLine& line, InquiryArguments& a);
+/// The options of the picture that is asked about: its view, and the style that frames it.
+void add_picture_options(CommandLine& line, InquiryArguments& a);
+/// To be called when the command line has been read: the style's framing and curves.
+void settle_picture(InquiryArguments& a);
+
+/// A place in the picture, pixels from its top left corner.
+struct Position {
+  double x = 0, y = 0;
+};
+/// What --at says.
+Position parse_position(const std::string& text);
+/// Fails if the picture does not have one of the places.
+Status check_positions(std::span<const Position> positions, const ViewOptions& view);
 
 /// What is seen somewhere.
 struct Picked {
@@ -53,8 +67,8 @@ class Inquiry {
   /// The exit code, if all else went well.
   int code() const { return code_for(read_, loading_, "answer"); }
 
-  /// What is seen at a position of the picture, in pixels; none if nothing is.
-  Result<std::optional<Picked>> pick(double x, double y);
+  /// What is seen at a position of the picture; none if nothing is.
+  Result<std::optional<Picked>> pick(const Position& at);
   Status cast(std::span<const Ray> rays, std::span<Hit> hits);
   Status cast_through(std::span<const Ray> rays, RayCrossings& found);
 

@@ -1,5 +1,6 @@
 #include "many_files.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,8 +9,8 @@
 #include <cmath>
 #include <condition_variable>
 #include <cstdint>
+#include <cstdlib>
 #include <exception>
-#include <fstream>
 #include <mutex>
 #include <new>
 #include <numeric>
@@ -46,11 +47,18 @@ uint64_t bytes_of(const std::string& file) {
                                                                        : 0;
 }
 
-/// Bytes of this process that are in memory now; 0 where nobody says.
+/// Bytes of this process that are in memory now; 0 where nobody says. Takes none itself, as there
+/// may be none left.
 uint64_t memory_in_use() {
-  uint64_t pages = 0, resident = 0;
-  std::ifstream("/proc/self/statm") >> pages >> resident;
-  return resident * uint64_t(::sysconf(_SC_PAGESIZE));
+  const int file = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return 0;
+  char text[128] = {};
+  const ssize_t length = ::read(file, text, sizeof(text) - 1);
+  ::close(file);
+  if (length <= 0) return 0;
+  char* resident = nullptr;
+  std::strtoull(text, &resident, 10);
+  return std::strtoull(resident, nullptr, 10) * uint64_t(::sysconf(_SC_PAGESIZE));
 }
 
 /// Which file is next, and when.
@@ -70,6 +78,7 @@ class Schedule {
     total_bytes_ =
         std::max<uint64_t>(1, std::accumulate(bytes_.begin(), bytes_.end(), uint64_t(0)));
     waiting_.resize(bytes_.size());
+    again_.reserve(bytes_.size());
     std::iota(waiting_.begin(), waiting_.end(), size_t(0));
     // The largest first: at the end nobody waits long for the last.
     std::ranges::stable_sort(waiting_, [&](size_t a, size_t b) { return bytes_[a] > bytes_[b]; });
@@ -172,19 +181,17 @@ class Told {
   Told(const std::vector<std::string>& files, bool quiet)
       : files_(files), said_(files.size()), progress_(!quiet, "drawing the files") {}
 
-  void add(size_t file, const Said& said) {
+  void add(size_t file, Said said) {
     const std::lock_guard lock(mutex_);
-    said_[file] = said;
+    said_[file] = std::move(said);
     ++done_;
     if (share_) share_(double(done_) / double(files_.size()));
-    if (file != next_) return;
-    progress_.without_line([&] {
-      for (; next_ < said_.size() && said_[next_]; ++next_) say_all(said_[next_]->lines);
-    });
+    if (file == next_) tell();
   }
 
   /// The exit code, when all are done.
   int end() {
+    tell();
     std::vector<size_t> bad;
     int code = kExitDone;
     for (size_t i = 0; i < files_.size(); ++i) {
@@ -204,6 +211,14 @@ class Told {
   }
 
  private:
+  /// What can be told in order.
+  void tell() {
+    if (next_ == said_.size() || !said_[next_]) return;
+    progress_.without_line([&] {
+      for (; next_ < said_.size() && said_[next_]; ++next_) say_all(said_[next_]->lines);
+    });
+  }
+
   const std::vector<std::string>& files_;
   std::mutex mutex_;
   std::vector<std::optional<Said>> said_;  ///< by file; none: not yet done
@@ -242,12 +257,22 @@ int draw_all(const ManyFiles& many, const std::function<int(size_t file, int thr
       many.threads > 0 ? size_t(many.threads) : std::max(1u, std::thread::hardware_concurrency());
   Schedule schedule(many, threads);
   Told told(many.files, many.quiet);
+  // Beside other threads nothing may be thrown here, also where there is no memory for words.
   const auto serve = [&] {
     while (const std::optional<Schedule::Task> task = schedule.take()) {
-      const std::optional<Said> said = drawn(many.files[task->file], task->is_alone,
-                                             [&] { return draw(task->file, task->threads); });
+      std::optional<Said> said = Said{{}, int(ErrorKind::kMachine)};
+      try {
+        said = drawn(many.files[task->file], task->is_alone,
+                     [&] { return draw(task->file, task->threads); });
+      } catch (const std::bad_alloc&) {
+        // The exit code and the last line tell of it.
+      }
       if (said) {
-        told.add(task->file, *said);
+        try {
+          told.add(task->file, *std::move(said));
+        } catch (const std::bad_alloc&) {
+          // Its words come with those of a later file.
+        }
         schedule.finish(*task);
       } else {
         schedule.put_back(*task);
@@ -255,10 +280,13 @@ int draw_all(const ManyFiles& many, const std::function<int(size_t file, int thr
     }
   };
   std::vector<std::thread> others;
+  others.reserve(schedule.most_at_a_time());
   try {
     while (others.size() + 1 < schedule.most_at_a_time()) others.emplace_back(serve);
   } catch (const std::system_error&) {
     // Fewer do as well.
+  } catch (const std::bad_alloc&) {
+    // Likewise.
   }
   serve();
   for (std::thread& other : others) other.join();

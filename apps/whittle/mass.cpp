@@ -24,8 +24,9 @@ std::string digits(double value, double bound) {
   constexpr int kMost = 15;
   const double size = std::max(std::fabs(value), bound);
   if (!(bound < size) || !(size > 0)) return fmt::format("{:.3g}", value);
-  const int sure = bound > 0 ? int(std::ceil(std::log10(size / bound))) + 1 : kMost;
-  return fmt::format("{:.{}g}", value, std::clamp(sure, 1, kMost));
+  // The quotient may be infinite.
+  const double sure = bound > 0 ? std::ceil(std::log10(size / bound)) + 1 : kMost;
+  return fmt::format("{:.{}g}", value, int(std::clamp(sure, 1.0, double(kMost))));
 }
 
 std::string digits(const Bounded& number, double times = 1) {

@@ -21,7 +21,8 @@ constexpr CommandHelp kHelp = {
     "Measures a model where one points at it: distance and angle between two places,\n"
     "thickness of the material behind each, diameter of a round wall.",
     "FILE --at X,Y [--at X,Y] [options]",
-    "X,Y are pixels of the picture that whittle FILE makes with the same view.\n\n"
+    "X,Y are pixels of the picture that whittle FILE makes with the same view and\n"
+    "style.\n\n"
     "Examples:\n"
     "  whittle measure part.csg --at 200,256 --at 300,256\n"
     "  whittle measure part.csg --at 256,256 --json | jq .places[0].thickness\n\n"
@@ -29,20 +30,20 @@ constexpr CommandHelp kHelp = {
     "not shown (--lenient: 0), 2 bad usage, 3 refused by the machine."};
 
 struct Place {
-  double x = 0, y = 0;
+  Position at;
   Picked picked;
   std::optional<double> diameter, thickness;
 };
 
-Result<Place> look(Inquiry& inquiry, const std::vector<double>& at) {
-  const Result<std::optional<Picked>> picked = inquiry.pick(at[0], at[1]);
+Result<Place> look(Inquiry& inquiry, const Position& at) {
+  const Result<std::optional<Picked>> picked = inquiry.pick(at);
   if (!picked) return picked.error();
   if (!*picked) {
     return Error{ErrorKind::kInput,
-                 fmt::format("{}: nothing is seen at {},{}", inquiry.model().file, text_of(at[0]),
-                             text_of(at[1]))};
+                 fmt::format("{}: nothing is seen at {},{}", inquiry.model().file, text_of(at.x),
+                             text_of(at.y))};
   }
-  Place place{at[0], at[1], **picked, inquiry.diameter_at(**picked), {}};
+  Place place{at, **picked, inquiry.diameter_at(**picked), {}};
   const Result<std::optional<double>> thickness = inquiry.thickness_at(**picked);
   if (!thickness) return thickness.error();
   place.thickness = *thickness;
@@ -60,7 +61,7 @@ std::string describe_text(const std::vector<Place>& places) {
     fmt::format_to(std::back_inserter(text), "{:<10} {}\n", name, value);
   };
   for (const Place& place : places) {
-    add("place", fmt::format("{},{}", text_of(place.x), text_of(place.y)));
+    add("place", fmt::format("{},{}", text_of(place.at.x), text_of(place.at.y)));
     add("point", text_of(place.picked.point));
     add("normal", text_of(place.picked.hit.normal));
     if (place.diameter) add("diameter", text_of(*place.diameter));
@@ -85,7 +86,7 @@ std::string describe_json(const std::vector<Place>& places) {
   };
   Json json;
   for (const Place& place : places) {
-    json["places"].push_back({{"at", {place.x, place.y}},
+    json["places"].push_back({{"at", {place.at.x, place.at.y}},
                               {"id", place.picked.hit.id},
                               {"point", json_of(place.picked.point)},
                               {"normal", json_of(place.picked.hit.normal)},
@@ -106,13 +107,12 @@ std::string describe_json(const std::vector<Place>& places) {
 int measure_command(Arguments arguments) {
   CommandLine line(kHelp);
   InquiryArguments a;
-  std::vector<std::vector<double>> positions;
+  std::vector<Position> positions;
   line.add_required("FILE", a.file);
   OptionGroup(line.app(), "What is measured")
-      .add_each(
-          "--at", "X,Y", "a place in the picture, pixels; once or twice",
-          [&](const std::string& text) { positions.push_back(parse_numbers("--at", text, 2)); });
-  add_view_options(line.app(), a.view, a.loading);
+      .add_each("--at", "X,Y", "a place in the picture, pixels; once or twice",
+                [&](const std::string& text) { positions.push_back(parse_position(text)); });
+  add_picture_options(line, a);
   add_inquiry_options(line, a);
   if (const std::optional<int> code = line.parse(arguments)) return *code;
   if (positions.empty() || positions.size() > 2) {
@@ -120,12 +120,14 @@ int measure_command(Arguments arguments) {
         {ErrorKind::kUsage,
          fmt::format("measure needs one place or two (--at X,Y), not {}", positions.size())});
   }
+  if (Status inside = check_positions(positions, a.view); !inside) return report(inside.error());
+  settle_picture(a);
 
   const Result<std::unique_ptr<Inquiry>> opened = Inquiry::open(a);
   if (!opened) return report(opened.error());
   Inquiry& inquiry = **opened;
   std::vector<Place> places;
-  for (const std::vector<double>& at : positions) {
+  for (const Position& at : positions) {
     const Result<Place> place = look(inquiry, at);
     if (!place) return report(place.error());
     places.push_back(*place);

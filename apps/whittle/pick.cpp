@@ -17,17 +17,13 @@ namespace {
 constexpr CommandHelp kHelp = {
     "whittle pick", "Says what is seen at places of a picture: which statement, and where.",
     "FILE --at X,Y [--at X,Y ...] [options]",
-    "X,Y are pixels of the picture that whittle FILE makes with the same view; 0,0 is\n"
-    "its top left corner.\n\n"
+    "X,Y are pixels of the picture that whittle FILE makes with the same view and\n"
+    "style; 0,0 is its top left corner.\n\n"
     "Examples:\n"
     "  whittle pick part.csg --at 256,256\n"
     "  whittle pick part.csg --at 400.5,300.5 --imgsize 800,600 --json\n\n"
     "Exit codes: 0 done, 1 bad input, or something in it is not shown (--lenient: 0),\n"
     "2 bad usage, 3 refused by the machine."};
-
-struct Position {
-  double x = 0, y = 0;
-};
 
 std::string describe_text(const Inquiry& inquiry, const Position& at,
                           const std::optional<Picked>& picked) {
@@ -88,21 +84,20 @@ int pick_command(Arguments arguments) {
   line.add_required("FILE", a.file);
   OptionGroup(line.app(), "What is asked")
       .add_each("--at", "X,Y", "a place in the picture, pixels; may be given again",
-                [&](const std::string& text) {
-                  const std::vector<double> at = parse_numbers("--at", text, 2);
-                  places.push_back({at[0], at[1]});
-                });
-  add_view_options(line.app(), a.view, a.loading);
+                [&](const std::string& text) { places.push_back(parse_position(text)); });
+  add_picture_options(line, a);
   add_inquiry_options(line, a);
   if (const std::optional<int> code = line.parse(arguments)) return *code;
   if (places.empty()) return report({ErrorKind::kUsage, "pick needs a place: --at X,Y"});
+  if (Status inside = check_positions(places, a.view); !inside) return report(inside.error());
+  settle_picture(a);
 
   const Result<std::unique_ptr<Inquiry>> opened = Inquiry::open(a);
   if (!opened) return report(opened.error());
   Inquiry& inquiry = **opened;
   std::string text;
   for (const Position& at : places) {
-    const Result<std::optional<Picked>> picked = inquiry.pick(at.x, at.y);
+    const Result<std::optional<Picked>> picked = inquiry.pick(at);
     if (!picked) return report(picked.error());
     if (!a.wants_json && &at != &places[0]) text += '\n';
     text +=

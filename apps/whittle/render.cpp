@@ -130,7 +130,7 @@ void add_options(CommandLine& line, RenderArguments& a) {
   add_color_options(app, a.shading);
   add_shadow_option(app, a.shading);
   look.add_count("--aa", "N", a.antialias, 1, kMostAntialias,
-                 "N x N rays a pixel at edges, 1 to 16 (studio: 3)");
+                 "N x N rays a pixel at edges, 1 to 16 (studio: 3, plain: 4)");
   look.add_flag("--no-background", a.no_background, "what is not hit is transparent");
   add_loading_options(line, a.loading);
   add_lenient_option(app, a.loading);
@@ -318,12 +318,13 @@ GimbalView view_of_box(const RenderArguments& a, const Model& model, const Box& 
   return frame_view(a.view, model.view, box, reach).view;
 }
 
-/// Line drawings of a solid, as its pictures show it. Adds to what a summary says of pictures.
-Status write_lines(RenderArguments& a, const std::vector<Output>& outputs, bool has_pictures,
+/// Line drawings of a solid, as its pictures show it; its warnings were said. Adds to what a
+/// summary says, which has its geometry and view already if there are files of another kind.
+Status write_lines(RenderArguments& a, const std::vector<Output>& outputs, bool is_alone,
                    Made& made, SummaryFacts& facts) {
   const Stopwatch watch;
   Loading loading = a.loading;
-  loading.quiet = loading.quiet || has_pictures;  // warnings were said
+  loading.quiet = true;
   const Result<Read> read = load(a.file, loading);
   if (!read) return read.error();
   std::vector<std::string> paths;
@@ -336,7 +337,7 @@ Status write_lines(RenderArguments& a, const std::vector<Output>& outputs, bool 
   made.add(outputs, *read);
   if (made.code == kExitDone) made.code = code_for(*read, loading, "drawing");
   facts.milliseconds += watch.milliseconds();
-  if (!has_pictures) {
+  if (is_alone) {
     facts.geometry = {.box = tight_box(read->model)};
     facts.view = view_of_box(a, read->model, facts.geometry.box);
   }
@@ -370,10 +371,11 @@ Status write_shapes(RenderArguments& a, const std::vector<Output>& outputs, bool
     if (made.code == kExitDone)
       made.code = code_for(*read, loading, read->model.drawing ? "drawing" : "solid");
     facts.geometry = *geometry;
-    facts.milliseconds += watch.milliseconds();
     if (!has_pictures) facts.view = view_of_box(a, read->model, geometry->box);
   }
-  return lines.empty() ? Done{} : write_lines(a, lines, true, made, facts);
+  facts.milliseconds += watch.milliseconds();
+  if (lines.empty()) return Done{};
+  return write_lines(a, lines, !has_pictures && shapes.empty(), made, facts);
 }
 
 /// Pictures first: what is no solid to print may well be seen.

@@ -114,13 +114,27 @@ class Collapser {
     }
     mesh_.corners.resize(corners);
     size_t triangles = 0;
+    std::vector<bool> has_triangles(mesh_.faces.size());
     for (size_t t = 0; t < mesh_.triangles.size(); ++t) {
       if (is_gone_[t]) continue;
       SolidMesh::Triangle kept = mesh_.triangles[t];
       for (uint32_t& corner : kept.corners) corner = numbers[corner];
+      has_triangles[kept.face] = true;
       mesh_.triangles[triangles++] = kept;
     }
     mesh_.triangles.resize(triangles);
+    clean_faces(has_triangles);
+  }
+
+  void clean_faces(const std::vector<bool>& has_triangles) {
+    std::vector<uint32_t> numbers(mesh_.faces.size());
+    uint32_t faces = 0;
+    for (uint32_t i = 0; i < mesh_.faces.size(); ++i) {
+      numbers[i] = faces;
+      if (has_triangles[i]) mesh_.faces[faces++] = mesh_.faces[i];
+    }
+    mesh_.faces.resize(faces);
+    for (SolidMesh::Triangle& triangle : mesh_.triangles) triangle.face = numbers[triangle.face];
   }
 
   SolidMesh& mesh_;

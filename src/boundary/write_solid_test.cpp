@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "boundary/collapse.h"
 #include "mesh/zip_archive.h"
 #include "support/mesh_checks.h"
@@ -159,6 +161,26 @@ TEST(CollapseShortEdges, LeavesAManifoldOfTheSameVolume) {
   SolidMesh coarse = prism(0.1);
   EXPECT_EQ(collapse_short_edges(coarse, 1e-12), 0u);
   EXPECT_EQ(coarse.corners.size(), 10u);
+}
+
+TEST(CollapseShortEdges, AFaceWithoutTrianglesGoes) {
+  SolidMesh mesh = prism(1e-13);
+  // The wall where the corner was cut off is a face of its own, and so is what comes behind it.
+  mesh.faces = {{{0, 0, 1}, 1}, {{1, 1, 0}, 2}, {{0, 1, 0}, 3}};
+  for (SolidMesh::Triangle& triangle : mesh.triangles) {
+    const auto on_wall = [&](uint32_t i) {
+      return std::all_of(triangle.corners.begin(), triangle.corners.end(),
+                         [&](uint32_t corner) { return corner % 5 == i || corner % 5 == i + 1; });
+    };
+    triangle.face = on_wall(2) ? 1 : on_wall(3) ? 2 : 0;
+  }
+  EXPECT_EQ(collapse_short_edges(mesh, 1e-12), 2u);
+  ASSERT_EQ(mesh.faces.size(), 2u);
+  EXPECT_EQ(mesh.faces[0].owner, 1u);
+  EXPECT_EQ(mesh.faces[1].owner, 3u);
+  const auto of_last = std::count_if(mesh.triangles.begin(), mesh.triangles.end(),
+                                     [](const auto& triangle) { return triangle.face == 1; });
+  EXPECT_EQ(of_last, 2);
 }
 
 TEST(CollapseShortEdges, ASmallSolidStays) {

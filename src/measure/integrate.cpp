@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -111,7 +112,9 @@ Integrated integrate(const Scene& scene, const Workers& workers,
   refine_all(tree, workers);
   Passes passes(scene, workers, settings, items_of(tree));
   const Vec3 size = scene.region.size();
-  double each = size.x * size.y * size.z * settings.within / 1024;
+  // What is 0 never becomes more.
+  constexpr double kLeast = std::numeric_limits<double>::min();
+  double each = std::max(size.x * size.y * size.z * settings.within / 1024, kLeast);
   std::optional<Integrated> best;
   bool is_limited = false;
   while (true) {
@@ -130,7 +133,7 @@ Integrated integrate(const Scene& scene, const Workers& workers,
     constexpr double kLeastShare = 1e-9;
     if (best->is_within || is_limited || !(share > kLeastShare)) return *best;
     // In small steps: a time through that takes too many parts is in vain.
-    each *= std::clamp(share, 1.0 / 64, 0.5);
+    each = std::max(each * std::clamp(share, 1.0 / 64, 0.5), kLeast);
   }
 }
 

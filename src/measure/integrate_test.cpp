@@ -51,6 +51,14 @@ std::string lying(const std::string& text) {
 
 const std::string kPipe = "cylinder(h = 4, r1 = 1, r2 = 1, center = true);";
 
+TEST(Integrate, EndsWhereAVolumeIsTooSmallForANumber) {
+  const Scene scene = *lower(model_of("sphere(r = 1e-110);"));
+  IntegrateSettings settings;
+  settings.most_parts = 1000;
+  const Integrated found = integrate(scene, Workers(1), settings);
+  EXPECT_EQ(found.integral[kVolume], 0);
+}
+
 TEST(Integrate, Cube) {
   expect_measures("cube(size = [1, 2, 3]);", 6, 22);
 }

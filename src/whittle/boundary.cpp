@@ -1,7 +1,9 @@
 // Boundaries of the public API.
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "boundary/face_loops.h"
 #include "whittle/api.h"
@@ -40,10 +42,30 @@ BoundaryMesh boundary_of(const SolidMesh& mesh) {
   return made;
 }
 
+/// Whether every edge of a triangle is there exactly once each way, between two corners.
+bool is_closed(const std::vector<std::array<uint32_t, 3>>& triangles) {
+  std::vector<std::array<uint32_t, 2>> edges, back;
+  edges.reserve(3 * triangles.size());
+  back.reserve(3 * triangles.size());
+  for (const std::array<uint32_t, 3>& corners : triangles)
+    for (size_t i = 0; i < 3; ++i) {
+      const uint32_t a = corners[i], b = corners[(i + 1) % 3];
+      if (a == b) return false;
+      edges.push_back({a, b});
+      back.push_back({b, a});
+    }
+  std::sort(edges.begin(), edges.end());
+  std::sort(back.begin(), back.end());
+  return edges == back && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+}
+
 /// What is written of it; all numbers are looked at, as anybody can have made it.
 SolidMesh mesh_of(const BoundaryMesh& boundary) {
   SolidMesh mesh;
-  for (const Point& corner : boundary.corners) mesh.corners.push_back(to_vec3(corner));
+  for (const Point& corner : boundary.corners) {
+    if (!is_finite(mesh.corners.emplace_back(to_vec3(corner))))
+      refuse("the corners of a boundary must be finite");
+  }
   for (const BoundaryMesh::Face& face : boundary.faces) {
     const auto number = uint32_t(mesh.faces.size());
     SolidMesh::Face& its = mesh.faces.emplace_back();
@@ -63,6 +85,10 @@ SolidMesh mesh_of(const BoundaryMesh& boundary) {
       mesh.triangles.push_back({boundary.triangles[i], number});
     }
   }
+  if (mesh.triangles.size() != boundary.triangles.size())
+    refuse("the faces of a boundary must have its triangles in a row");
+  if (!is_closed(boundary.triangles))
+    refuse("every edge of a boundary must be there once each way");
   return mesh;
 }
 

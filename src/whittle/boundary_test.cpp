@@ -90,6 +90,47 @@ TEST(Boundary, OfWhatCanNotBeIsRefused) {
   EXPECT_THROW(made.write("x.off"), Failure) << "there are no corners";
 }
 
+TEST(Boundary, OfWhatIsNoneNoFileIsMade) {
+  const TestFolder folder;
+  const BoundaryMesh cube = boundary_of_text("cube(1);");
+  const auto expect_refused = [&](const BoundaryMesh& mesh, const std::string& message) {
+    for (const std::string name : {"x.stl", "x.off"}) {
+      try {
+        mesh.write(folder / name);
+        ADD_FAILURE() << message;
+      } catch (const Failure& failure) {
+        EXPECT_EQ(std::string(failure.what()), message);
+      }
+      EXPECT_FALSE(std::filesystem::exists(folder / name));
+    }
+  };
+  const std::string edges = "every edge of a boundary must be there once each way";
+  BoundaryMesh bad = cube;
+  bad.triangles[3][1] = bad.triangles[3][0];
+  expect_refused(bad, edges);
+  bad = cube;
+  std::swap(bad.triangles[5][0], bad.triangles[5][1]);
+  expect_refused(bad, edges);
+  bad = cube;
+  bad.triangles.pop_back();
+  --bad.faces.back().triangle_count;
+  expect_refused(bad, edges);
+  // Each edge twice each way.
+  bad = cube;
+  bad.triangles.insert(bad.triangles.end(), cube.triangles.begin(), cube.triangles.end());
+  bad.faces.push_back({.id = 1, .first_triangle = 12, .triangle_count = 12});
+  expect_refused(bad, edges);
+  bad = cube;
+  bad.faces.pop_back();
+  expect_refused(bad, "the faces of a boundary must have its triangles in a row");
+  for (const double number : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    bad = cube;
+    bad.corners[2][1] = number;
+    expect_refused(bad, "the corners of a boundary must be finite");
+  }
+  cube.write(folder / "x.stl");
+}
+
 TEST(Boundary, StopsAndTellsHowFarItIs) {
   const Solid solid = Solid::parse("sphere(r = 3, $fn = 40);", "text", kFacetted);
   std::atomic<double> last = 0;

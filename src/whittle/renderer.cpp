@@ -320,7 +320,11 @@ Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
   look.is_drawing = s.model.drawing.has_value();
   // On a plane there are none.
   if (look.shadows && !s.model.drawing) look.casters = view_region(bounds(s.model));
-  if (look.style == Style::kStudio && !s.model.drawing) look.solid = s.framed_box();
+  if (look.style == Style::kStudio && !s.model.drawing) {
+    look.solid = s.framed_box();
+    // What is framed of a solid without end does not say how far down it reaches.
+    look.ground = look.ground && s.has_end;
+  }
   const auto shaded = [&] {
     if (look.style == Style::kStudio)
       return shade_studio(s.seen(), camera, frame, s.looks, look, antialias, s.workers, stop);

@@ -299,6 +299,31 @@ TEST(Renderer, ShadesAPictureAsItsOwnCameraSeesIt) {
   EXPECT_EQ(renderer->shade(frame, near, {}, 4)->rgba, expected.rgba);
 }
 
+TEST(Renderer, OnlyASolidWithAnEndHasAGround) {
+  const auto has_ground = [](const char* text) {
+    const Model model = model_of(text);
+    Result<Renderer> renderer = Renderer::make(model, {.backend = Backend::kCpu, .subdivide = {}});
+    const Camera camera = renderer->camera(small_view());
+    EXPECT_TRUE(renderer->prepare(camera));
+    const Frame frame = *renderer->trace(camera);
+    ShadeSettings look;
+    look.style = Style::kStudio;
+    look.background = false;
+    const auto pixels = [&](bool ground) {
+      look.ground = ground;
+      return renderer->shade(frame, camera, look, 1)->rgba;
+    };
+    return pixels(true) != pixels(false);
+  };
+  EXPECT_TRUE(has_ground("cube(9);"));
+  // A bar that goes down without end below a cube.
+  EXPECT_FALSE(
+      has_ground("union() { cube(9); intersection() {"
+                 "halfspace(n = [0, 0, 1], d = 0); halfspace(n = [1, 0, 0], d = 5);"
+                 "halfspace(n = [-1, 0, 0], d = -4); halfspace(n = [0, 1, 0], d = 5);"
+                 "halfspace(n = [0, -1, 0], d = -4); } }"));
+}
+
 TEST(Renderer, AnEmptyModelIsBackgroundWithEveryBackend) {
   const Model model = model_of("");
   for (const Backend backend : {Backend::kCpu, Backend::kOracle}) {

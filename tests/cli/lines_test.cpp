@@ -1,4 +1,5 @@
 // whittle FILE -o part.svg: line drawings.
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,25 @@ TEST_F(LineFiles, HiddenLinesOnRequest) {
   EXPECT_EQ(run({"box.csg", "-o", "b.svg", "--hidden-lines"}).exit_code, 0);
   EXPECT_EQ(read("a.svg").find("class=\"hidden\""), std::string::npos);
   EXPECT_NE(read("b.svg").find("class=\"hidden\""), std::string::npos);
+}
+
+TEST_F(LineFiles, ASummaryOfADrawingAloneIsThatOfThePicture) {
+  const auto summary = [&](const std::vector<std::string>& outputs) {
+    std::vector<std::string> arguments{"box.csg", "--summary-file", "s.json"};
+    for (const std::string& output : outputs) arguments.insert(arguments.end(), {"-o", output});
+    EXPECT_EQ(run(arguments).exit_code, 0);
+    return nlohmann::json::parse(read("s.json"));
+  };
+  const nlohmann::json alone = summary({"a.svg"}), beside = summary({"a.svg", "a.png"});
+  EXPECT_EQ(alone["geometry"], beside["geometry"]);
+  EXPECT_EQ(alone["geometry"]["bounding_box"]["max"], nlohmann::json({10.0, 20.0, 30.0}));
+  EXPECT_NEAR(alone["camera"]["distance"], beside["camera"]["distance"], 1e-3);
+  EXPECT_EQ(alone["camera"]["rotation"], beside["camera"]["rotation"]);
+  EXPECT_EQ(summary({"a.svg", "a.stl"})["geometry"]["facets"], 12);
+  // Warnings are said once.
+  write("odd.csg", "cube(size = [1, 2, 3], length = 4);\n");
+  EXPECT_EQ(run({"odd.csg", "-o", "b.svg"}).err,
+            "odd.csg:1:24: warning: cube: the argument 'length' is not known; it is ignored\n");
 }
 
 TEST_F(LineFiles, PictureAndDrawingAreOfOneSize) {
