@@ -34,7 +34,7 @@ constexpr CommandHelp kHelp = {
 constexpr size_t kRaysEach = 64;
 /// Rays that are answered before more are cast. Their crossings, and what is written of them, take
 /// memory, and one ray may have thousands.
-constexpr size_t kRaysAtOnce = 4096;
+constexpr size_t kRaysAtOnce = 2048;
 
 using Text = std::back_insert_iterator<std::string>;
 
@@ -83,9 +83,9 @@ class Caster {
       }
     });
     count_ += rays.size();
-    std::string all;
-    for (const std::string& text : texts) all += text;
-    return write_standard_output(all);
+    for (const std::string& text : texts)
+      if (Status written = write_standard_output(text); !written) return written;
+    return Done{};
   }
 
   Status cast_first(std::span<const Ray> rays) {
