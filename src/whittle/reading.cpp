@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 
 #include "base/workers.h"
 #include "boundary/closed_mesh.h"
@@ -11,11 +12,19 @@
 
 namespace whittle {
 
-Box tight_box(const Model& model) {
+Box tight_box(const Model& model, int threads) {
   const Bounds around = bounds(model);
   if (!around.bounded || around.box.is_empty()) return around.box;
-  const Result<Scene> scene = lower(model);
-  return seen_box(model, scene ? solid_bounds(*scene, 0).box : around.box);
+  // A smaller model is lowered before threads have started.
+  constexpr size_t kManyNodes = size_t(1) << 14;
+  std::optional<Workers> workers;
+  if (model.nodes.size() >= kManyNodes) workers.emplace(threads);
+  const Result<Scene> scene = lower(model, workers ? &*workers : nullptr);
+  return seen_box(model, scene ? solid_bounds(*scene, threads).box : around.box);
+}
+
+std::function<Box(const Model&)> box_maker(int threads) {
+  return [threads](const Model& model) { return tight_box(model, threads); };
 }
 
 std::vector<SourceLocation> statement_places(const Model& model) {
