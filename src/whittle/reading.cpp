@@ -39,15 +39,19 @@ std::vector<SourceLocation> statement_places(const Model& model) {
   return places;
 }
 
-std::function<Result<TriangleMesh>(const Model&)> mesh_maker(int threads) {
-  return [threads, workers = std::shared_ptr<const Workers>()](const Model& model) mutable {
+std::function<Result<TriangleMesh>(const Model&, size_t& pieces)> mesh_maker(int threads) {
+  return [threads, workers = std::shared_ptr<const Workers>()](const Model& model,
+                                                               size_t& pieces) mutable {
     // A boundary that takes more takes minutes, or gigabytes.
     BoundarySettings settings;
     settings.cell_memory = size_t(1) << 28;
     settings.pairs = 1'000'000'000;
     settings.pieces = 1'000'000;
     if (!workers) workers = std::make_shared<const Workers>(threads);
-    return closed_mesh(model, *workers, settings);
+    BoundaryStats stats;
+    Result<TriangleMesh> mesh = closed_mesh(model, *workers, settings, &stats);
+    pieces = stats.pieces;
+    return mesh;
   };
 }
 
