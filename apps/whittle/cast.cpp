@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,11 +31,14 @@ constexpr CommandHelp kHelp = {
     "2 bad usage, 3 refused by the machine."};
 
 /// Rays a task.
-constexpr size_t kRaysEach = 256;
+constexpr size_t kRaysEach = 64;
+/// Rays that are answered before more are cast. Their crossings, and what is written of them, take
+/// memory, and one ray may have thousands.
+constexpr size_t kRaysAtOnce = 2048;
 
 using Text = std::back_insert_iterator<std::string>;
 
-/// Minus nothing is nothing.
+/// Minus zero is written without its sign.
 double plain(double number) {
   return number == 0 ? 0 : number;
 }
@@ -61,7 +65,14 @@ class Caster {
   Caster(Inquiry& inquiry, const Workers& workers, bool first_only, bool wants_json)
       : inquiry_(inquiry), workers_(workers), first_only_(first_only), wants_json_(wants_json) {}
 
-  Status operator()(const std::vector<Ray>& rays) {
+  Status operator()(std::span<const Ray> rays) {
+    for (; !rays.empty(); rays = rays.subspan(std::min(rays.size(), kRaysAtOnce)))
+      if (Status done = answer(rays.first(std::min(rays.size(), kRaysAtOnce))); !done) return done;
+    return Done{};
+  }
+
+ private:
+  Status answer(std::span<const Ray> rays) {
     if (Status cast = first_only_ ? cast_first(rays) : inquiry_.cast_through(rays, found_); !cast)
       return cast;
     std::vector<std::string> texts(rays.size() / kRaysEach + 1);
@@ -72,13 +83,12 @@ class Caster {
       }
     });
     count_ += rays.size();
-    std::string all;
-    for (const std::string& text : texts) all += text;
-    return write_standard_output(all);
+    for (const std::string& text : texts)
+      if (Status written = write_standard_output(text); !written) return written;
+    return Done{};
   }
 
- private:
-  Status cast_first(const std::vector<Ray>& rays) {
+  Status cast_first(std::span<const Ray> rays) {
     hits_.resize(rays.size());
     if (Status cast = inquiry_.cast(rays, hits_); !cast) return cast;
     found_ = {};

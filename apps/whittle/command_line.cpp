@@ -64,7 +64,7 @@ FileOptions read_options(const Loading& loading) {
                       .threads = loading.threads ? *loading.threads : 0,
                       .limits = loading.limits,
                       .outlines = loading.outlines,
-                      .solid_box = tight_box,
+                      .solid_box = box_maker(loading.threads ? *loading.threads : 0),
                       .closed_mesh = mesh_maker(loading.threads ? *loading.threads : 0)},
           .import_root = loading.import_root,
           .flatten = std::move(flatten),
@@ -113,8 +113,10 @@ Result<Read> load(const std::string& file, const Loading& loading) {
 void say_if_nothing_is_seen(const Model& model, const Frame& frame, const Loading& loading) {
   if (loading.quiet) return;
   if (std::ranges::any_of(frame.hits, [](const Hit& hit) { return hit.hit(); })) return;
+  const int threads = loading.threads ? *loading.threads : 0;
+  const bool is_empty = tight_box(model, threads).is_empty();
   say(fmt::format("{}: warning: {}", model.file,
-                  tight_box(model).is_empty() ? "the solid is empty" : "nothing is in view"));
+                  is_empty ? "the solid is empty" : "nothing is in view"));
 }
 
 int code_for(const Read& read, const Loading& loading, const char* made) {

@@ -115,7 +115,7 @@ Result<GeometryFacts> write_shape_files(const Model& model, const std::vector<Sh
   std::vector<ShapeOutput> solids, drawings;
   for (const ShapeOutput& output : outputs)
     (std::holds_alternative<SolidFormat>(output.format) ? solids : drawings).push_back(output);
-  // What a model is not can be known of the first of either.
+  // A model has two dimensions or three. What asks for the other fails in the first of its kind.
   if (drawings.empty()) return write_solids(model, solids, settings);
   Result<GeometryFacts> facts = write_drawings(model, drawings, settings);
   if (!facts || solids.empty()) return facts;

@@ -37,10 +37,10 @@ TriangleMesh triangle_mesh(SolidMesh solid) {
 }  // namespace
 
 Result<TriangleMesh> closed_mesh(const Model& model, const Workers& workers,
-                                 const BoundarySettings& settings) {
+                                 const BoundarySettings& settings, BoundaryStats* stats) {
   const Result<Scene> scene = lower(model, &workers);
   if (!scene) return scene.error();
-  Result<SolidMesh> solid = evaluate_solid(*scene, workers, nullptr, settings);
+  Result<SolidMesh> solid = evaluate_solid(*scene, workers, stats, settings);
   if (!solid) return solid.error();
   return triangle_mesh(*std::move(solid));
 }

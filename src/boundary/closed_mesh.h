@@ -12,6 +12,7 @@ namespace whittle {
 /// The boundary of a model's solid (evaluate_solid.h); without triangles if it is empty. Facets are
 /// the solid's faces. Errors say in words, without a place, why there is none.
 Result<TriangleMesh> closed_mesh(const Model& model, const Workers& workers,
-                                 const BoundarySettings& settings = {});
+                                 const BoundarySettings& settings = {},
+                                 BoundaryStats* stats = nullptr);
 
 }  // namespace whittle

@@ -46,8 +46,8 @@ struct ReadOptions {
   /// for it.
   std::function<Box(const Model&)> solid_box{};
   /// The boundary of a solid (boundary/closed_mesh.h), for hulls and sums of what is cut and for
-  /// projections; without it there are none of these.
-  std::function<Result<TriangleMesh>(const Model&)> closed_mesh{};
+  /// projections; without it there are none of these. As EvaluateOptions::closed_mesh.
+  std::function<Result<TriangleMesh>(const Model&, size_t& pieces)> closed_mesh{};
 };
 
 /// What was read.

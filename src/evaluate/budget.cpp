@@ -17,8 +17,7 @@ std::string Budget::message() const {
   }
   return fmt::format(
       "flat shapes, hulls and sums up to this one are computed from {} corners, more than the "
-      "limit "
-      "of {}{}",
+      "limit of {}{}",
       work_, kWork * most_, limit_hint("facets"));
 }
 

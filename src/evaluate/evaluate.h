@@ -32,8 +32,8 @@ struct EvaluateOptions {
   std::function<Box(const Model&)> solid_box;
   /// The boundary of a solid, for hulls and sums of what is cut, and for projections; what is
   /// curved in it has facets. Errors say in words, without a place, why there is none. Without this
-  /// function there is never one.
-  std::function<Result<TriangleMesh>(const Model&)> closed_mesh;
+  /// function there is never one. `pieces`: set to how many convex pieces it was made of.
+  std::function<Result<TriangleMesh>(const Model&, size_t& pieces)> closed_mesh;
 };
 
 /// The solid that a document describes, as a model without leaves and operations. Every extrusion,

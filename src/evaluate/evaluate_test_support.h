@@ -18,7 +18,7 @@ namespace whittle {
 /// To read with, so that what must be evaluated is.
 inline ReadOptions with_boundaries() {
   ReadOptions options;
-  options.closed_mesh = [](const Model& model) { return closed_mesh(model, Workers(1)); };
+  options.closed_mesh = [](const Model& model, size_t&) { return closed_mesh(model, Workers(1)); };
   return options;
 }
 

@@ -109,15 +109,35 @@ TEST(Hull, OfWhatIsCutIsThatOfWhatIsLeft) {
   // What is hulled in there comes first, and what is not cut is not asked for.
   size_t asked = 0;
   ReadOptions options = with_boundaries();
-  options.closed_mesh = [&, make = options.closed_mesh](const Model& model) {
+  options.closed_mesh = [&, make = options.closed_mesh](const Model& model, size_t& pieces) {
     ++asked;
-    return make(model);
+    return make(model, pieces);
   };
   expect_same(
       "hull() { difference() { hull() { cube(1); difference() { cube([9, 1, 1]); translate([7, -1,"
       " -1]) cube(9); } } translate([5, -1, -1]) cube(9); } cube(1); union() { cube(1); } }",
       "cube([5, 1, 1]);", options);
   EXPECT_EQ(asked, 2u);
+}
+
+TEST(Hull, OfManyPiecesTakesOfTheBudgetOfAll) {
+  ReadOptions options = with_boundaries();
+  options.limits.facets = 10'000;
+  size_t asked = 0;
+  options.closed_mesh = [&, make = options.closed_mesh](const Model& model, size_t& pieces) {
+    Result<TriangleMesh> mesh = make(model, pieces);
+    ++asked;
+    pieces = 4'000;  // as if much had been cut away
+    return mesh;
+  };
+  const std::string one = "hull() difference() { cube(2); cube(1); }";
+  EXPECT_EQ(bounds(evaluated(one + one, options).model).box, (Box{{0, 0, 0}, {2, 2, 2}}));
+  std::string many;
+  for (int i = 0; i < 20; ++i) many += one;
+  asked = 0;
+  const std::string error = evaluation_error(many, options);
+  EXPECT_NE(error.find("more than the limit of 300000"), std::string::npos) << error;
+  EXPECT_EQ(asked, 4u);
 }
 
 TEST(Hull, OfWhatHasNoEndIsLeftOut) {

@@ -39,13 +39,15 @@ TriangleMesh Evaluator::boundary_of(const Model& model, const Frame& frame) {
            "a solid has no end, so no hull and no projection");
     return {};
   }
-  Result<TriangleMesh> mesh = options_.closed_mesh(model);
+  size_t pieces = 0;
+  Result<TriangleMesh> mesh = options_.closed_mesh(model, pieces);
   if (!mesh) {
     budget_.refuse("this solid cannot be evaluated: " + mesh.error().message);
     return {};
   }
-  constexpr uint64_t kPerTriangle = 10;
-  budget_.work(kPerTriangle * mesh->triangles.size());
+  // What was cut may leave few triangles.
+  constexpr uint64_t kPerTriangle = 10, kPerPiece = 20;
+  budget_.work(kPerTriangle * mesh->triangles.size() + kPerPiece * uint64_t(pieces));
   return *std::move(mesh);
 }
 

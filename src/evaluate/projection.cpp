@@ -105,7 +105,8 @@ Polygons section_of_convex(std::span<const Vec3> points) {
   return {{std::move(outline)}};
 }
 
-/// Loops where a surface goes through the plane, if corners in it lie below it; or above.
+/// Loops where a surface goes through the plane z = 0. Corners in the plane count as below it if
+/// `level_is_below`, else as above.
 std::vector<Contour> section_loops(const SolidPart& part, std::span<const Vec3> points,
                                    bool level_is_below) {
   const auto is_above = [&](uint32_t corner) {

@@ -144,9 +144,9 @@ TEST(Projection, AtTheTopIsADrawingWithOutlines) {
   ReadOptions options = with_boundaries();
   options.outlines = true;
   size_t asked = 0;
-  options.closed_mesh = [&, make = options.closed_mesh](const Model& model) {
+  options.closed_mesh = [&, make = options.closed_mesh](const Model& model, size_t& pieces) {
     ++asked;
-    return make(model);
+    return make(model, pieces);
   };
   const Model model =
       evaluated("translate([5, 0, 0]) projection() cube(4); projection(cut = true) cube(2);",

@@ -104,7 +104,7 @@ std::vector<Contour> convex_outlines(const Polygons& polygons) {
   return outlines;
 }
 
-/// A piece of a mesh: the triangles of one shell.
+/// By shell, its triangles as a mesh of their own.
 std::vector<TriangleMesh> split(const TriangleMesh& mesh, const Shells& shells) {
   std::vector<TriangleMesh> parts(shells.count);
   std::vector<uint32_t> numbers(mesh.points.size());

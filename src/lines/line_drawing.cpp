@@ -1,6 +1,7 @@
 #include "lines/line_drawing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -82,6 +83,8 @@ class Drafter {
     for (uint32_t i = 0; i < edges_.size(); ++i) {
       const SolidEdge& edge = edges_[i];
       std::optional<DrawnLine> line = projection_.draw(edge.from, edge.to);
+      if (line && !(is_in_reach(line->a) && is_in_reach(line->b)))
+        return Error{ErrorKind::kInput, "the solid is too large for a line drawing of this scale"};
       if (!line || !(length(line->b - line->a) > 0)) continue;
       line->edge = i;
       if (edge.may_cover) covering.push_back(*line);
@@ -106,7 +109,7 @@ class Drafter {
   }
 
   /// What is drawn: silhouettes first, for they stay where lines lie on one another.
-  std::vector<KindLine> lines() const {
+  Result<std::vector<KindLine>> lines() const {
     std::vector<KindLine> all;
     for (size_t i = 0; i < parts_.size();) {
       // Parts of one line that are seen alike are one.
@@ -132,6 +135,10 @@ class Drafter {
   size_t part_count() const { return parts_.size(); }
 
  private:
+  bool is_in_reach(Vec2 p) const {
+    return std::fabs(p.x) <= kMostSteps * step_ && std::fabs(p.y) <= kMostSteps * step_;
+  }
+
   std::vector<SolidEdge> edges_;
   const Projection& projection_;
   const LineSettings& settings_;
@@ -194,8 +201,10 @@ Result<LineDrawing> draw_lines(const Model& model, const Camera& given,
       projection, settings, workers);
   s.edges = drafter.edge_count();
   lap(s.edges_ms);
-  if (Status done = drafter.split(); !done)
-    return Error{done.error().kind, model.file + ": error: " + done.error().message};
+  const auto named = [&model](const Error& error) {
+    return Error{error.kind, model.file + ": error: " + error.message};
+  };
+  if (Status done = drafter.split(); !done) return named(done.error());
   s.parts = drafter.part_count();
   lap(s.split_ms);
   enter("looking");
@@ -210,10 +219,12 @@ Result<LineDrawing> draw_lines(const Model& model, const Camera& given,
   lap(s.look_ms);
 
   enter("drawing");
+  const Result<std::vector<KindLine>> lines = drafter.lines();
+  if (!lines) return named(lines.error());
   LineDrawing drawing{.is_to_scale = projection.is_to_scale(),
                       .corner = {},
                       .size = {double(camera.width), double(camera.height)},
-                      .paths = chain_lines(drafter.lines(), drafter.step())};
+                      .paths = chain_lines(*lines, drafter.step())};
   if (drawing.is_to_scale) fit_sheet(drawing);
   s.paths = drawing.paths.size();
   for (const DrawnPath& path : drawing.paths) s.points += path.points.size();

@@ -287,6 +287,12 @@ TEST(LineDrawing, SaysWhatCannotBeDrawn) {
   const Error many = error("sphere(r = 20);", {.most_facets = 10});
   EXPECT_EQ(many.kind, ErrorKind::kMachine);
   EXPECT_EQ(many.message, "test.csg: error: a line drawing of more than 10 facets is too large");
+  // Coordinates are written in steps of a thousandth.
+  const Error large = error("cube(1e14);", {});
+  EXPECT_EQ(large.kind, ErrorKind::kInput);
+  EXPECT_EQ(large.message,
+            "test.csg: error: the solid is too large for a line drawing of this scale");
+  EXPECT_EQ(error("cube(1e9);", {.scale = 1e8}).kind, ErrorKind::kInput);
   EXPECT_EQ(error("halfspace(n = [0, 0, 1], d = 0);", {}).kind, ErrorKind::kInput);
   EXPECT_TRUE(drawing_of(model_of("group();"), orthographic_camera({50, 0, 20})).paths.empty());
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/vec.h"
@@ -20,13 +21,39 @@ class SegmentGrid {
   /// Memory follows the number of segments, however long they are.
   explicit SegmentGrid(std::span<const Segment> segments);
 
-  /// Calls `visit(number)` for all segments that come nearer than a cell's ten-thousandth to the
-  /// given one, and for others. Some are named several times.
+  /// Which segments were visited for the one that is asked about. Each thread needs its own.
+  class Visited {
+   public:
+    /// `segments`: as many as the grid has.
+    explicit Visited(size_t segments) : turns_(segments, 0) {}
+
+   private:
+    friend class SegmentGrid;
+    void begin() {
+      if (++turn_ == 0) {
+        std::fill(turns_.begin(), turns_.end(), 0);
+        turn_ = 1;
+      }
+    }
+    bool add(uint32_t segment) { return std::exchange(turns_[segment], turn_) != turn_; }
+
+    std::vector<uint32_t> turns_;
+    uint32_t turn_ = 0;
+  };
+
+  /// Calls `visit(number)` once for each segment that comes nearer than a cell's ten-thousandth to
+  /// the given one, and for others. Returns how many it found in the cells, those counted several
+  /// times that share several: the time follows that.
   template <class Visit>
-  void for_near(const Segment& segment, const Visit& visit) const {
+  size_t for_near(const Segment& segment, Visited& visited, const Visit& visit) const {
+    visited.begin();
+    size_t found = 0;
     for_cells(segment, [&](size_t cell) {
-      for (uint32_t i = firsts_[cell]; i < firsts_[cell + 1]; ++i) visit(members_[i]);
+      found += firsts_[cell + 1] - firsts_[cell];
+      for (uint32_t i = firsts_[cell]; i < firsts_[cell + 1]; ++i)
+        if (visited.add(members_[i])) visit(members_[i]);
     });
+    return found;
   }
 
  private:

@@ -15,9 +15,16 @@ bool cross_one_another(const Segment& a, const Segment& b) {
 
 void expect_all_found(const std::vector<Segment>& segments, const std::vector<Segment>& asked) {
   const SegmentGrid grid(segments);
+  SegmentGrid::Visited visited(segments.size());
   for (const Segment& one : asked) {
     std::vector<bool> found(segments.size(), false);
-    grid.for_near(one, [&](uint32_t i) { found[i] = true; });
+    size_t visits = 0;
+    const size_t pairs = grid.for_near(one, visited, [&](uint32_t i) {
+      EXPECT_FALSE(found[i]) << "named twice";
+      found[i] = true;
+      ++visits;
+    });
+    EXPECT_GE(pairs, visits);
     for (size_t i = 0; i < segments.size(); ++i)
       if (cross_one_another(one, segments[i])) {
         EXPECT_TRUE(found[i]);

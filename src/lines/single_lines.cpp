@@ -47,28 +47,35 @@ void add_rest(const KindLine& line, std::vector<Interval>& gone, double shortest
 
 }  // namespace
 
-std::vector<KindLine> single_lines(std::span<const KindLine> lines, double apart, double shortest,
-                                   const Workers& workers) {
+Result<std::vector<KindLine>> single_lines(std::span<const KindLine> lines, double apart,
+                                           double shortest, const Workers& workers,
+                                           const LineLimits& limits) {
   std::vector<Segment> segments;
   segments.reserve(lines.size());
   for (const KindLine& line : lines) segments.push_back(line.segment);
   const SegmentGrid grid(segments);
+  LineBudget budget(limits);
   constexpr size_t kChunk = 256;
   std::vector<std::vector<KindLine>> chunks((lines.size() + kChunk - 1) / kChunk);
-  workers.for_parts(chunks.size(), 1, [&](size_t first, size_t last, size_t) {
+  PerWorker<SegmentGrid::Visited> visited(workers);
+  workers.for_parts(chunks.size(), 1, [&](size_t first, size_t last, size_t worker) {
+    SegmentGrid::Visited& own = visited.of(worker, segments.size());
     std::vector<Interval> gone;
-    for (size_t chunk = first; chunk < last; ++chunk) {
-      for (size_t i = chunk * kChunk; i < std::min(lines.size(), (chunk + 1) * kChunk); ++i) {
-        gone.clear();
-        grid.for_near(segments[i], [&](uint32_t other) {
-          if (other >= i) return;
-          const Interval interval = covered(segments[i], segments[other], apart);
-          if (interval.first < interval.second) gone.push_back(interval);
-        });
-        add_rest(lines[i], gone, shortest, chunks[chunk]);
-      }
+    for (size_t i = first * kChunk; i < std::min(lines.size(), last * kChunk); ++i) {
+      if (budget.is_spent()) return;
+      std::vector<KindLine>& out = chunks[i / kChunk];
+      const size_t before = out.size();
+      gone.clear();
+      const size_t pairs = grid.for_near(segments[i], own, [&](uint32_t other) {
+        if (other >= i) return;
+        const Interval interval = covered(segments[i], segments[other], apart);
+        if (interval.first < interval.second) gone.push_back(interval);
+      });
+      add_rest(lines[i], gone, shortest, out);
+      budget.add(pairs, out.size() - before);
     }
   });
+  if (budget.is_spent()) return budget.error();
   std::vector<KindLine> left;
   for (const std::vector<KindLine>& chunk : chunks)
     left.insert(left.end(), chunk.begin(), chunk.end());

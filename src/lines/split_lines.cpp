@@ -1,8 +1,8 @@
 #include "lines/split_lines.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <utility>
 
 #include "lines/segment_grid.h"
 
@@ -46,16 +46,22 @@ class Cutter {
   double slack_, length_ = 0;
 };
 
-/// Adds the parts between the places.
-void add_parts(uint32_t line, std::vector<double>& places, double shortest,
-               std::vector<LinePart>& out) {
+/// Sorts the places, and leaves out those that would make a part too short.
+void keep_apart(std::vector<double>& places, double shortest) {
   std::sort(places.begin(), places.end());
+  size_t kept = 0;
   double from = 0;
   for (const double place : places) {
     if (place - from < shortest || 1 - place < shortest) continue;
-    out.push_back({line, from, place});
-    from = place;
+    places[kept++] = from = place;
   }
+  places.resize(kept);
+}
+
+/// Adds the parts between the places.
+void add_parts(uint32_t line, const std::vector<double>& places, std::vector<LinePart>& out) {
+  double from = 0;
+  for (const double place : places) out.push_back({line, std::exchange(from, place), place});
   out.push_back({line, from, 1});
 }
 
@@ -71,31 +77,36 @@ double reach(std::span<const DrawnLine> lines) {
 Result<std::vector<LinePart>> split_lines(std::span<const DrawnLine> lines,
                                           std::span<const DrawnLine> covering,
                                           const Projection& projection, double length,
-                                          const Workers& workers) {
+                                          const Workers& workers, const LineLimits& limits) {
   std::vector<Segment> segments;
   segments.reserve(covering.size());
   for (const DrawnLine& line : covering) segments.push_back({line.a, line.b});
   const SegmentGrid grid(segments);
   const double slack = 1e-12 * (reach(lines) + reach(covering));
-  std::atomic<size_t> count{0};
+  LineBudget budget(limits);
   constexpr size_t kChunk = 256;
   std::vector<std::vector<LinePart>> chunks((lines.size() + kChunk - 1) / kChunk);
-  workers.for_parts(chunks.size(), 1, [&](size_t first, size_t last, size_t) {
+  PerWorker<SegmentGrid::Visited> visited(workers);
+  workers.for_parts(chunks.size(), 1, [&](size_t first, size_t last, size_t worker) {
+    SegmentGrid::Visited& own = visited.of(worker, segments.size());
     std::vector<double> places;
-    for (size_t chunk = first; chunk < last && count <= kMostParts; ++chunk) {
-      for (size_t i = chunk * kChunk; i < std::min(lines.size(), (chunk + 1) * kChunk); ++i) {
-        const Cutter cutter(lines[i], projection, slack);
-        places.clear();
-        if (cutter.length() > length)
-          grid.for_near({lines[i].a, lines[i].b},
-                        [&](uint32_t number) { cutter.cut(covering[number], places); });
-        add_parts(uint32_t(i), places, length / cutter.length(), chunks[chunk]);
-      }
-      count += chunks[chunk].size();
+    for (size_t i = first * kChunk; i < std::min(lines.size(), last * kChunk); ++i) {
+      const Cutter cutter(lines[i], projection, slack);
+      places.clear();
+      size_t pairs = 0;
+      if (cutter.length() > length)
+        pairs = grid.for_near({lines[i].a, lines[i].b}, own,
+                              [&](uint32_t number) { cutter.cut(covering[number], places); });
+      keep_apart(places, length / cutter.length());
+      // Before memory is taken for them.
+      budget.add(pairs, places.size() + 1);
+      if (budget.is_spent()) return;
+      add_parts(uint32_t(i), places, chunks[i / kChunk]);
     }
   });
-  if (count > kMostParts)
-    return Error{ErrorKind::kMachine, "the lines of the drawing cross too often"};
+  if (budget.is_spent()) return budget.error();
+  size_t count = 0;
+  for (const std::vector<LinePart>& chunk : chunks) count += chunk.size();
   std::vector<LinePart> parts;
   parts.reserve(count);
   for (const std::vector<LinePart>& chunk : chunks)

@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "base/workers.h"
+#include "lines/line_limits.h"
 #include "lines/projection.h"
 
 namespace whittle {
@@ -18,12 +19,10 @@ struct LinePart {
 
 /// Cuts every line where one of the covering lines runs before it in the drawing. Parts are in the
 /// order of their lines, and of each line from its start. `length`: parts are no shorter, in units
-/// of the drawing, unless the line is. A kMachine error for more than kMostParts.
+/// of the drawing, unless the line is. A kMachine error for what passes the limits.
 Result<std::vector<LinePart>> split_lines(std::span<const DrawnLine> lines,
                                           std::span<const DrawnLine> covering,
                                           const Projection& projection, double length,
-                                          const Workers& workers);
-
-inline constexpr size_t kMostParts = size_t(1) << 25;
+                                          const Workers& workers, const LineLimits& limits = {});
 
 }  // namespace whittle

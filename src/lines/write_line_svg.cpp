@@ -2,24 +2,50 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <cstdint>
 #include <iterator>
 
 namespace whittle {
 namespace {
 
-/// Text between tags. What XML cannot hold becomes a question mark.
+/// The bytes of the character at the start of the text, as UTF-8 in RFC 3629; 0 if it is none, or
+/// one that XML 1.0 does not allow.
+size_t xml_character_size(std::string_view text) {
+  const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  if (first < 0x80) return first < 0x20 ? 0 : 1;
+  const size_t size = first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf5 ? 4 : 0;
+  if (size > text.size()) return 0;
+  uint32_t code = first & (0x7fu >> size);
+  for (size_t i = 1; i < size; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+    code = code << 6 | (byte(i) & 0x3fu);
+  }
+  const bool is_overlong = (size == 3 && code < 0x800) || (size == 4 && code < 0x10000);
+  const bool is_surrogate = code >= 0xd800 && code < 0xe000;
+  if (is_overlong || is_surrogate || code > 0x10ffff || code == 0xfffe || code == 0xffff) return 0;
+  return size;
+}
+
+/// Text between tags. Bytes that XML cannot hold become question marks: names of files may have
+/// any.
 std::string escaped(std::string_view text) {
   std::string out;
-  for (const char c : text) {
-    if (c == '&')
+  while (!text.empty()) {
+    const size_t size = xml_character_size(text);
+    const std::string_view character = text.substr(0, std::max<size_t>(size, 1));
+    if (size == 0)
+      out += '?';
+    else if (character == "&")
       out += "&amp;";
-    else if (c == '<')
+    else if (character == "<")
       out += "&lt;";
-    else if (c == '>')
+    else if (character == ">")
       out += "&gt;";
     else
-      out += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+      out += character;
+    text.remove_prefix(character.size());
   }
   return out;
 }

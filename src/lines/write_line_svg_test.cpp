@@ -39,5 +39,21 @@ TEST(WriteLineSvg, PictureIsInPixels) {
   EXPECT_EQ(svg.find("<g"), std::string::npos);
 }
 
+TEST(WriteLineSvg, TitleIsWellFormed) {
+  const auto title = [](std::string_view name) {
+    const std::string svg = write_line_svg({}, name);
+    const size_t from = svg.find("<title>") + 7;
+    return svg.substr(from, svg.find("</title>") - from);
+  };
+  EXPECT_EQ(title("B\xc3\xbcgel \xe2\x82\xac \xf0\x9f\x94\xa7.csg"),
+            "B\xc3\xbcgel \xe2\x82\xac \xf0\x9f\x94\xa7.csg");
+  // Latin-1; cut off; overlong; a surrogate; beyond Unicode; no character; a control character.
+  EXPECT_EQ(title("B\xfcgel"), "B?gel");
+  EXPECT_EQ(title("a\xe2\x82"), "a??");
+  EXPECT_EQ(title("\xc0\xaf \xe0\x80\xaf \xf0\x80\x80\xaf"), "?? ??? ????");
+  EXPECT_EQ(title("\xed\xa0\x80 \xf4\x90\x80\x80 \xff"), "??? ???? ?");
+  EXPECT_EQ(title("\xef\xbf\xbf\x01"), "????");
+}
+
 }  // namespace
 }  // namespace whittle

@@ -249,7 +249,7 @@ Solid Solid::make(const Csg& csg, const LoadOptions& options) {
                                   .threads = threads_of(options.threads),
                                   .read_file = nullptr,
                                   .outlines = has_outlines(curves),
-                                  .solid_box = tight_box,
+                                  .solid_box = box_maker(threads_of(options.threads)),
                                   .closed_mesh = mesh_maker(threads_of(options.threads))},
                                  warnings));
   const bool is_complete = !warnings.unsupported();

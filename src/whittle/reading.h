@@ -12,13 +12,16 @@
 
 namespace whittle {
 
-/// The tight box of a solid (subdivide/solid_bounds.h), for ReadOptions::solid_box; of one without
-/// end, or too large to be lowered, its bounds.
-Box tight_box(const Model& model);
+/// The tight box of a solid (subdivide/solid_bounds.h); of one without end, or too large to be
+/// lowered, its bounds. On so many threads (0: all).
+Box tight_box(const Model& model, int threads = 0);
+
+/// tight_box() on so many threads, for ReadOptions::solid_box.
+std::function<Box(const Model&)> box_maker(int threads);
 
 /// The boundaries of solids (boundary/closed_mesh.h), for ReadOptions::closed_mesh, on so many
 /// threads (0: all), which are started when the first is asked for. For one reader at a time.
-std::function<Result<TriangleMesh>(const Model&)> mesh_maker(int threads);
+std::function<Result<TriangleMesh>(const Model&, size_t& pieces)> mesh_maker(int threads);
 
 /// The curves for pictures of that style, where these were chosen.
 constexpr Curves curves_in_style(Style style, Curves chosen) {

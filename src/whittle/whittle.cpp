@@ -19,7 +19,7 @@ ReadOptions reading_of(const LoadOptions& o) {
           .threads = threads_of(o.threads),
           .limits = o.limits,
           .outlines = has_outlines(curves_in_style(o.style, o.curves)),
-          .solid_box = tight_box,
+          .solid_box = box_maker(threads_of(o.threads)),
           .closed_mesh = mesh_maker(threads_of(o.threads))};
 }
 

@@ -105,7 +105,9 @@ int run(int argc, char** argv) {
     std::printf("%s\n", describe(*device).c_str());
   }
   FileOptions options;
-  options.reading.closed_mesh = [](const Model& model) { return closed_mesh(model, Workers(0)); };
+  options.reading.closed_mesh = [](const Model& model, size_t&) {
+    return closed_mesh(model, Workers(0));
+  };
   for (const std::string& file : files) {
     const Result<Read> read = read_file(file, options);
     if (!read) {

@@ -27,9 +27,13 @@ ReadOptions small_limits(Curves curves) {
       .limits = {.bytes = 1 << 20, .depth = 3000, .nodes = 5000, .values = 20000, .facets = 3000},
       // Without a folder: no files are read.
       .outlines = true,
-      .closed_mesh = [](const Model& model) {
-        return closed_mesh(model, Workers(1),
-                           {.cell_memory = 1 << 24, .pairs = 1'000'000, .pieces = 10'000});
+      .closed_mesh = [](const Model& model, size_t& pieces) {
+        BoundaryStats stats;
+        Result<TriangleMesh> mesh =
+            closed_mesh(model, Workers(1),
+                        {.cell_memory = 1 << 24, .pairs = 1'000'000, .pieces = 10'000}, &stats);
+        pieces = stats.pieces;
+        return mesh;
       }};
 }
 
