@@ -171,9 +171,9 @@ class Gathering {
           for (size_t x = 0; x < columns; ++x) next_sum[x] = sum[x] + row[x];
           if (y == 0) continue;
           const uint8_t* bits = &differences_[(y - 1) * width_ + x0];
+          const uint32_t* above = &before[(y - 1) * kStrip];
           uint32_t* here = &before[y * kStrip];
-          for (size_t x = 0; x < columns; ++x)
-            here[x] = bits[x] & kBelow ? 0 : here[x - kStrip] + 1;
+          for (size_t x = 0; x < columns; ++x) here[x] = bits[x] & kBelow ? 0 : above[x] + 1;
         }
         for (size_t y = height_; y-- > 0;) {
           const uint8_t* bits = &differences_[y * width_ + x0];

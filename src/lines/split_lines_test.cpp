@@ -48,8 +48,8 @@ TEST(SplitLines, PassesNoLimit) {
   // Discs on one another, seen from above: the lines lie on one another, too.
   std::vector<DrawnLine> pile;
   for (int i = 0; i < 1000; ++i) pile.push_back(line({0, 0, i + 0.0}, {10, 1, i + 0.0}));
-  EXPECT_TRUE(split_lines(pile, pile, kAbove, 1e-3, kWorkers));
-  const auto close = split_lines(pile, pile, kAbove, 1e-3, kWorkers, {.pairs = 500'000});
+  EXPECT_TRUE(split_lines(pile, pile, kAbove, 1e-3, kSplitThreads));
+  const auto close = split_lines(pile, pile, kAbove, 1e-3, kSplitThreads, {.pairs = 500'000});
   ASSERT_FALSE(close);
   EXPECT_EQ(close.error().kind, ErrorKind::kMachine);
   EXPECT_EQ(close.error().message, "too many lines of the drawing run close to one another");
@@ -59,10 +59,10 @@ TEST(SplitLines, CountsThePartsOfAllLines) {
   std::vector<DrawnLine> lines, across;
   for (int i = 0; i < 300; ++i) lines.push_back(line({0, i + 0.0, 0}, {10, i + 0.0, 0}));
   for (int i = 1; i < 10; ++i) across.push_back(line({i + 0.0, -1, 2}, {i + 0.0, 300, 2}));
-  const auto parts = split_lines(lines, across, kAbove, 1e-3, kWorkers, {.parts = 3000});
+  const auto parts = split_lines(lines, across, kAbove, 1e-3, kSplitThreads, {.parts = 3000});
   ASSERT_TRUE(parts);
   EXPECT_EQ(parts->size(), 3000u);
-  const auto many = split_lines(lines, across, kAbove, 1e-3, kWorkers, {.parts = 2999});
+  const auto many = split_lines(lines, across, kAbove, 1e-3, kSplitThreads, {.parts = 2999});
   ASSERT_FALSE(many);
   EXPECT_EQ(many.error().message, "the lines of the drawing cross too often");
 }

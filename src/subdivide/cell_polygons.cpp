@@ -64,7 +64,10 @@ uint32_t CellPolygons::plane_of(const Scene& scene, uint32_t face, const CellBox
   for (uint32_t i = 0; i < planes.size(); ++i) {
     if (planes[i].half_space == number) return i;
     const auto is_on = [&](Vec3 q) { return std::fabs(planes[i].at(q)) <= 2 * slack; };
-    if (std::fabs(dot(n, planes[i].n)) > 0.9 && std::ranges::all_of(cut_, is_on)) return i;
+    if (std::fabs(dot(n, planes[i].n)) > 0.9 && std::ranges::all_of(cut_, is_on)) {
+      has_merged_ = true;
+      return i;
+    }
   }
   planes.push_back({n, dot(n, cell.center - h.center) + h.f.c, number, face, classify(h, cell)});
   return uint32_t(planes.size() - 1);

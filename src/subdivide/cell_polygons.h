@@ -67,6 +67,7 @@ struct CellPolygons {
 
   std::vector<uint32_t> reaching_;
   std::vector<Vec3> cut_;
+  bool has_merged_ = false;  ///< planes that cannot be told apart on a polygon are one
 };
 
 template <class Reaching>
@@ -85,7 +86,10 @@ void CellPolygons::collect(const Scene& scene, const Boundary& boundary, const C
   for (const uint32_t i : reaching_) measure(scene, boundary, boundary.triangles()[i], cell);
   CellBox larger = cell;
   larger.half += Vec3{1, 1, 1} * (2 * slack);
+  has_merged_ = false;
   for (const uint32_t i : reaching_) add(scene, boundary, boundary.triangles()[i], cell, larger);
+  // What met the one plane, at an edge, may be as far beyond the other.
+  if (has_merged_) slack *= 2;
 }
 
 /// How far a point in the plane of a convex polygon is inside of it. Outside: less than none, and

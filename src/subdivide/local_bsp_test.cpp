@@ -144,6 +144,40 @@ TEST_P(LocalBspOf, APartOfACellIsTheSameByTheTrianglesNearTheCell) {
   EXPECT_GT(listed, 100);
 }
 
+TEST_P(LocalBspOf, APartOfACellIsTheSameByWhatTheCellSays) {
+  const Model model = with_meshes("cube(1);", {meshes()[GetParam()]});
+  const Result<Scene> scene = lower(model);
+  ASSERT_TRUE(scene);
+  const UnitBoxes boxes(*scene);
+  Simplifier simplifier(*scene, boxes, 1e-12 * max_component(scene->region.size()));
+  const double tell = 20 * scene->boundaries[0].slack();
+  std::mt19937 random(uint32_t(GetParam()) + 1);
+  std::uniform_real_distribution<double> share(0, 1);
+  Formula whole, part;
+  int asked = 0;
+  for (int i = 0; i < 1000; ++i) {
+    Box cell = scene->region;
+    const int splits = 5 + int(share(random) * 6);
+    for (int k = 0; k < splits; ++k)
+      (random() % 2 ? cell.lo : cell.hi)[k % 3] = cell.center()[k % 3];
+    if (simplifier.simplify(scene->formula, cell, Expand::kAll, whole) != Truth::kVaries) continue;
+    for (int k = splits; k < splits + 2; ++k)
+      (random() % 2 ? cell.lo : cell.hi)[k % 3] = cell.center()[k % 3];
+    const Truth truth = simplifier.simplify(whole, cell, Expand::kAll, part);
+    for (int k = 0; k < 20; ++k) {
+      const Vec3 p = {cell.lo.x + share(random) * cell.size().x,
+                      cell.lo.y + share(random) * cell.size().y,
+                      cell.lo.z + share(random) * cell.size().z};
+      if (is_near_surface(*scene, p, tell)) continue;
+      const bool inside =
+          truth == Truth::kVaries ? contains(*scene, part, p) : truth == Truth::kTrue;
+      ++asked;
+      ASSERT_EQ(inside, scene->boundaries[0].winding(p) != 0) << "cell " << i;
+    }
+  }
+  EXPECT_GT(asked, 1000);
+}
+
 // A corner lies on a cell's side: what is beyond reaches the cell with its rim alone.
 TEST(LocalBsp, NeighboursAcrossACornerOnACutAgree) {
   const Model model = with_meshes("cube(1);", {on_cuts(bumpy_mesh(3, 0.2, 3, 3))});

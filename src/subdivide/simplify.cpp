@@ -263,6 +263,13 @@ Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, Expan
       out.push_back(token);
     } else if (token.kind() == TokenKind::kUnit) {
       value = unit(token, cell, cell_edge, expand, out, kept);
+    } else if (const Face& face = scene_.faces[token.payload()];
+               !scene_.units[face.unit].is_conjunction()) {
+      // What a boundary said in a larger cell: each of its planes is a literal by itself.
+      const Side side = classify(scene_, face.literal, cell);
+      value = truth(side, token.negated());
+      kept.operands = value == Truth::kVaries;
+      if (value == Truth::kVaries) out.push_back(token);
     } else {
       // The faces of one primitive stand in a row.
       const uint32_t first = i;
