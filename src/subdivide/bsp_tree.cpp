@@ -94,8 +94,13 @@ void BspTree::divide(std::span<const uint32_t> polygons, uint32_t plane, CellPol
 
 /// Finds a point on the node's plane, as far from all that else is in the part as can be, and what
 /// all polygons on the plane say there together.
-void BspTree::take_sample(std::span<const uint32_t> polygons, const CellPolygons& in, Node& node) {
+void BspTree::take_sample(std::span<const uint32_t> polygons, uint32_t parent,
+                          const CellPolygons& in, Node& node) {
+  // What bounds the part counts, too: along a fold of hardly any angle, a polygon may go on beyond
+  // the other one's plane by far more than either is off its own.
   other_planes_.clear();
+  for (uint32_t n = parent; n != UINT32_MAX; n = parents_[n])
+    other_planes_.push_back(nodes_[n].plane);
   for (const uint32_t number : polygons)
     if (const uint32_t plane = in.polygons[number].plane; plane != node.plane)
       other_planes_.push_back(plane);
@@ -134,6 +139,7 @@ void BspTree::build(CellPolygons& in) {
     uint32_t parent, side;
   };
   nodes_.clear();
+  parents_.clear();
   parts_ = 0;
   lists_.clear();
   for (uint32_t i = 0; i < in.polygons.size(); ++i) lists_.push_back(i);
@@ -150,8 +156,9 @@ void BspTree::build(CellPolygons& in) {
       lists_.resize(part.first);
       Node node{choose(list_, in), {0, 0}, {}, 0, 0};
       divide(list_, node.plane, in);
-      take_sample(list_, in, node);
+      take_sample(list_, part.parent, in, node);
       nodes_.push_back(node);
+      parents_.push_back(part.parent);
       const auto from = uint32_t(lists_.size());
       lists_.insert(lists_.end(), front_.begin(), front_.end());
       const auto middle = uint32_t(lists_.size());

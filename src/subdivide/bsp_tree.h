@@ -19,8 +19,10 @@ class BspTree {
     /// or parts: kPart + number.
     uint32_t child[2];
     Vec3 sample;  ///< a point of one of its polygons,
-    double room;  ///< and how far it is from all other planes and polygons' edges nearby; may be 0
-    int jump;     ///< by how much the winding number grows there, from front to back
+    /// and how far it is from all other planes and polygons' edges nearby, and from the planes that
+    /// bound its part; may be 0.
+    double room;
+    int jump;  ///< by how much the winding number grows there, from front to back
   };
   static constexpr uint32_t kPart = 1u << 31;
 
@@ -39,10 +41,12 @@ class BspTree {
  private:
   uint32_t choose(std::span<const uint32_t> polygons, const CellPolygons& in) const;
   void divide(std::span<const uint32_t> polygons, uint32_t plane, CellPolygons& in);
-  void take_sample(std::span<const uint32_t> polygons, const CellPolygons& in, Node& node);
+  void take_sample(std::span<const uint32_t> polygons, uint32_t parent, const CellPolygons& in,
+                   Node& node);
 
   std::vector<Node> nodes_;
   uint32_t parts_ = 0;
+  std::vector<uint32_t> parents_;  ///< of nodes; UINT32_MAX: the root has none
   // Scratch: numbers of polygons.
   std::vector<uint32_t> list_, lists_, front_, back_, on_, other_planes_;
 };

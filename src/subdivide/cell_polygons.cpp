@@ -107,12 +107,21 @@ double CellPolygons::width_of(std::span<const Vec3> polygon) {
 
 double depth_in(std::span<const Vec3> polygon, Vec3 normal, double slack, Vec3 p) {
   double depth = kInfinity;
+  bool has_short = false;
   for (size_t k = 0; k < polygon.size(); ++k) {
     const Vec3 a = polygon[k], b = polygon[k + 1 < polygon.size() ? k + 1 : 0];
     const double l = length(b - a);
-    if (l > slack) depth = std::min(depth, dot(cross(b - a, p - a), normal) / l);
+    if (l > slack)
+      depth = std::min(depth, dot(cross(b - a, p - a), normal) / l);
+    else
+      has_short = true;
   }
-  return depth;
+  if (!has_short) return depth;
+  // Without some of its edges it may have no end. The point may be off its plane by two slacks.
+  Box box;
+  for (const Vec3& corner : polygon) box.include(corner);
+  const double beyond = std::max(max_component(box.lo - p), max_component(p - box.hi)) - 2 * slack;
+  return beyond > 0 ? std::min(depth, -beyond) : depth;
 }
 
 }  // namespace whittle

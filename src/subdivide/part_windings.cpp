@@ -90,11 +90,9 @@ void PartWindings::probe(Vec3 q, const Around& around) {
   ++known_;
 }
 
-/// A point of a part that is farther than `least` from what bounds it, if one is found: the point
-/// is moved, again and again, out of what it is most beyond (Agmon; Motzkin and Schoenberg, The
-/// relaxation method for linear inequalities, 1954).
+/// A point of a part that is farther than `least` from what bounds it, if there is one: with about
+/// half as much room as there can be.
 std::optional<Vec3> PartWindings::inner_point(uint32_t part, double least, const Around& around) {
-  constexpr int kMoves = 12;
   // The way from the part to the root.
   const std::vector<BspTree::Node>& nodes = around.tree.nodes();
   limits_.clear();
@@ -104,33 +102,30 @@ std::optional<Vec3> PartWindings::inner_point(uint32_t part, double least, const
     for (const int side : {0, 1}) {
       if (nodes[n].child[side] != child) continue;
       const CellPolygons::Plane& plane = around.polygons.planes[nodes[n].plane];
-      const double sign = side == 0 ? 1 : -1;
-      limits_.push_back({plane.n * sign, plane.value * sign});
+      const double sign = side == 0 ? -1 : 1;
+      limits_.push_back({plane.n * sign, -plane.value * sign});
       child = n;
       break;
     }
   }
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double sign : {1.0, -1.0}) {
-      Vec3 n;
-      n[axis] = sign;
-      limits_.push_back({n, around.cell.half[axis]});
-    }
   const Vec3 half = around.cell.half;
-  Vec3 q;
-  for (double room = 0.5 * std::min({half.x, half.y, half.z}); room > least; room *= 0.5)
-    for (int i = 0; i < kMoves; ++i) {
-      double lowest = kInfinity;
-      Vec3 inward;
-      for (const Limit& limit : limits_) {
-        const double at = dot(limit.n, q) + limit.value;
-        if (at < lowest) lowest = at, inward = limit.n;
-      }
-      const double short_of = room - lowest;
-      if (short_of <= 1e-3 * room) return q;
-      q += inward * short_of;
-    }
-  return std::nullopt;
+  const double most = 0.5 * std::min({half.x, half.y, half.z});
+  const auto point_with = [&](double room) {
+    moved_ = limits_;
+    for (Constraint& limit : moved_) limit.d -= room;
+    return farthest_point({0, 0, 1}, moved_, half - Vec3{room, room, room});
+  };
+  // What has room has room for less.
+  std::optional<Vec3> found;
+  int few = 0, many = std::max(int(std::log2(most / least)), 0) + 1;  // halvings
+  while (few < many) {
+    const int halvings = (few + many) / 2;
+    const double room = std::ldexp(most, -halvings);
+    const std::optional<Vec3> q = room > least ? point_with(room) : std::nullopt;
+    if (q) found = q;
+    (q ? many : few) = q ? halvings : halvings + 1;
+  }
+  return found;
 }
 
 void PartWindings::find(const Boundary& boundary, const CellBox& cell, const CellPolygons& in,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "subdivide/bsp_tree.h"
+#include "subdivide/linear_program.h"
 
 namespace whittle {
 
@@ -46,12 +47,6 @@ class PartWindings {
     const BspTree& tree;
   };
 
-  /// n.q + value >= 0.
-  struct Limit {
-    Vec3 n;
-    double value;
-  };
-
   Place find_root(uint32_t part);
   void relate(const BspTree::Node& node, const CellPolygons& in, const BspTree& tree);
   std::optional<Vec3> inner_point(uint32_t part, double least, const Around& around);
@@ -60,7 +55,7 @@ class PartWindings {
 
   std::vector<Member> members_;
   size_t sets_ = 0, known_ = 0;  ///< sets in all, and those that are known
-  std::vector<Limit> limits_;
+  std::vector<Constraint> limits_, moved_;
   std::vector<int> winding_;
 };
 

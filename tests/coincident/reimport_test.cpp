@@ -14,19 +14,11 @@
 #include "support/agreement.h"
 #include "support/random_tree.h"
 #include "support/read_text.h"
+#include "support/solid_difference.h"
 #include "trace/oracle/oracle.h"
 
 namespace whittle {
 namespace {
-
-/// What a file that is called `name` and holds `bytes` says.
-Model imported(const std::string& name, const std::string& bytes) {
-  ReadOptions options;
-  options.named_files = [&](const std::string&) -> Result<std::optional<std::string>> {
-    return std::optional(bytes);
-  };
-  return model_of("import(\"" + name + "\");", "imported.csg", options);
-}
 
 /// Pixels that hit. None if the model has no mesh: it is empty, or without end.
 int compare_with_its_files(const Model& model) {
@@ -76,6 +68,39 @@ TEST(Reimported, RandomTreesLookAsTheyWere) {
     hits += compare_with_its_files(facetted_model_of(text));
   }
   EXPECT_GT(hits, 20'000);
+}
+
+/// STL has 32-bit floats.
+constexpr double kFloats = 1.2e-7;
+
+/// The solid again, by way of its STL: nearly the same planes, each in several pieces.
+void expect_hardly_any_difference(const Model& model) {
+  const Result<Scene> scene = lower(model);
+  if (!scene || !scene->bounded) return;
+  const SolidMesh mesh = evaluated(model);
+  if (mesh.triangles.empty()) return;
+  const Result<SolidFile> stl = write_solid(mesh, SolidFormat::kStl, Workers(2));
+  ASSERT_TRUE(stl);
+  const SolidMesh again = evaluated(imported("solid.stl", stl->bytes));
+  EXPECT_LE(symmetric_difference(mesh, again), kFloats * reach_of(mesh) * surface(mesh));
+}
+
+TEST(Reimported, ScenesLessTheirFilesAreNothing) {
+  for (const auto& chapter : {flush_scenes, abutting_scenes, body_scenes, curved_scenes,
+                              facet_scenes, algebra_scenes, menger_scenes}) {
+    for (const CoincidentScene& scene : chapter()) {
+      SCOPED_TRACE(scene.name);
+      expect_hardly_any_difference(facetted_model_of(scene.text));
+    }
+  }
+}
+
+TEST(Reimported, RandomTreesLessTheirFilesAreNothing) {
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    expect_hardly_any_difference(
+        facetted_model_of(random_tree(seed, {.primitives = 14, .coincident = seed % 2 != 0})));
+  }
 }
 
 TEST(Reimported, ExamplesLookAsTheyWere) {

@@ -23,16 +23,6 @@
 namespace whittle {
 namespace {
 
-double surface(const SolidMesh& mesh) {
-  double sum = 0;
-  for (const SolidMesh::Triangle& triangle : mesh.triangles) {
-    const Vec3 a = mesh.corners[triangle.corners[0]], b = mesh.corners[triangle.corners[1]],
-               c = mesh.corners[triangle.corners[2]];
-    sum += length(cross(b - a, c - a)) / 2;
-  }
-  return sum;
-}
-
 class Writer {
  public:
   explicit Writer(std::string folder) : folder_(std::move(folder)) {

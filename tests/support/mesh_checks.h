@@ -56,6 +56,16 @@ inline double volume(const SolidMesh& mesh) {
   return six / 6;
 }
 
+inline double surface(const SolidMesh& mesh) {
+  double sum = 0;
+  for (const SolidMesh::Triangle& triangle : mesh.triangles) {
+    const Vec3 a = mesh.corners[triangle.corners[0]], b = mesh.corners[triangle.corners[1]],
+               c = mesh.corners[triangle.corners[2]];
+    sum += length(cross(b - a, c - a)) / 2;
+  }
+  return sum;
+}
+
 /// How often the mesh winds around a point that is on none of its triangles: the sum of their solid
 /// angles (Van Oosterom and Strackee 1983).
 inline int winding(const SolidMesh& mesh, Vec3 p) {
