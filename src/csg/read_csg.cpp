@@ -43,8 +43,10 @@ Result<Read> read_csg(TextSource& source, const std::string& file_name,
                                    .closed_mesh = options.closed_mesh};
   StatementCounts counts = std::move(document->counts);
   Document background;
-  const bool has_background = options.background && counts.background > 0;
-  if (has_background) background = background_of(*document);
+  if (options.background && counts.background > 0) background = background_of(*document);
+  const bool has_background = background.model.nodes.size() > 1;
+  const SourceLocation first_mark =
+      has_background ? background.model.nodes[1].where : SourceLocation{};
   Result<Model> model = evaluate(std::move(*document), evaluating, warnings);
   if (!model) return model.error();
   Warnings of_background(file_name);
@@ -52,7 +54,7 @@ Result<Read> read_csg(TextSource& source, const std::string& file_name,
     Result<Model> ghosts = evaluate(std::move(background), evaluating, of_background);
     if (!ghosts) return ghosts.error();
     if (ghosts->drawing)
-      of_background.add(kFlatBackground, ghosts->nodes.front().where, kFlatBackground);
+      of_background.add(kFlatBackground, first_mark, kFlatBackground);
     else
       model->background = std::make_shared<const Model>(*std::move(ghosts));
   }

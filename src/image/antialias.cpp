@@ -32,7 +32,8 @@ void find_means(const Colors& samples, size_t n, Colors& means) {
     for (size_t s = pixel * n; s < (pixel + 1) * n; ++s) {
       if (samples.alpha[s] == 0) continue;
       // A sample brighter than white is white: a highlight must not outshine an edge's other side.
-      sum += min(Vec3f{samples.r[s], samples.g[s], samples.b[s]}, Vec3f{1, 1, 1}) * samples.alpha[s];
+      sum +=
+          min(Vec3f{samples.r[s], samples.g[s], samples.b[s]}, Vec3f{1, 1, 1}) * samples.alpha[s];
       seen += samples.alpha[s];
     }
     const Vec3f mean = seen == 0 ? Vec3f{} : sum / seen;
@@ -72,8 +73,7 @@ Picture shade_veiled(const Frame& frame, const Shader& shader, std::span<const u
 
 Picture shade_antialiased(Tracer& tracer, const Camera& camera, const Frame& frame,
                           std::span<const Appearance> appearances, const ShadeSettings& settings,
-                          int n, const Workers& workers, const std::stop_token& stop,
-                          Veil* veil) {
+                          int n, const Workers& workers, const std::stop_token& stop, Veil* veil) {
   WHITTLE_CHECK(settings.style != Style::kStudio);
   Shadows finder(tracer, camera, settings, workers);
   std::vector<uint8_t> shadows;
@@ -82,9 +82,9 @@ Picture shade_antialiased(Tracer& tracer, const Camera& camera, const Frame& fra
   PerWorker<MeanScratch> scratch(workers);
   std::vector<uint8_t> differences;
   if (n > 1 || veil) differences = later_differences(frame, camera, workers, kCosEdge);
-  Picture picture =
-      veil ? shade_veiled(frame, shader, shadows, *veil, workers, scratch, differences)
-           : shade(frame, camera, appearances, settings, workers, shadows);
+  Picture picture = veil
+                        ? shade_veiled(frame, shader, shadows, *veil, workers, scratch, differences)
+                        : shade(frame, camera, appearances, settings, workers, shadows);
   if (n <= 1) return picture;
   std::vector<uint8_t> mask = edge_mask(differences, size_t(frame.width), workers);
   if (settings.shadows) add_shadow_edges(shadows, size_t(frame.width), mask);

@@ -47,8 +47,7 @@ Veil::Veil(std::vector<VeilLayer> layers, std::vector<Appearance> looks, const C
   for (const Appearance& look : looks) opacities_.push_back(std::max(0.0f, opacity(look)));
   for (size_t i = 0; i < layers_.size(); ++i)
     for (const Hit& hit : layers_[i].first.hits)
-      if (hit.hit())
-        shades_[i] = std::max(shades_[i], opacities_[layers_[i].first_look + hit.id]);
+      if (hit.hit()) shades_[i] = std::max(shades_[i], opacities_[layers_[i].first_look + hit.id]);
 }
 
 void Veil::cast(size_t layer, std::span<const PixelPosition> places, VeilSight& sight) {
@@ -89,8 +88,8 @@ void Veil::look_at_rows(const Frame& opaque, size_t first, size_t last,
     for (size_t i = 0; i < count; ++i) {
       // What is wholly behind what is opaque is not asked for.
       const bool may_be_seen =
-          seen[i].hit() && seen[i].distance <= sight.opaque[i].distance * (1 + 1e-5f) +
-                                                   float(4 * tolerance_);
+          seen[i].hit() &&
+          seen[i].distance <= sight.opaque[i].distance * (1 + 1e-5f) + float(4 * tolerance_);
       ray_of[i] = may_be_seen ? 0 : VeilSight::kNone;
     }
     cast(layer, places, sight);
@@ -189,7 +188,8 @@ void Veil::draw_lines(std::span<const PixelPosition> places, size_t first, size_
       if (line.layer == wall.layer && line.index == wall.index) return line;
     return lines.emplace_back(Line{wall.layer, wall.index, Spot(camera_, middle_place, Hit{})});
   };
-  for (const VeilWall& wall : middle) line_of(wall).here = Spot(camera_, middle_place, hit_of(wall));
+  for (const VeilWall& wall : middle)
+    line_of(wall).here = Spot(camera_, middle_place, hit_of(wall));
   for (size_t i = first; i < last; ++i) {
     for (size_t k = i == 0 ? 0 : scratch.ends[i - 1]; k < scratch.ends[i]; ++k) {
       const VeilWall& wall = scratch.walls[k];

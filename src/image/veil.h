@@ -2,8 +2,8 @@
 //
 // Each surface of a see-through solid that a ray crosses, the near ones and the far ones alike,
 // hides the share of what lies behind it that its alpha says. Walls are told apart exactly, by all
-// crossings of each ray with each solid, whatever the order in the file. Where a wall lies on one of
-// another solid, a rule says which is in front (docs/decisions/0051-see-through.md).
+// crossings of each ray with each solid, whatever the order in the file. Where a wall lies on one
+// of another solid, a rule says which is in front (docs/decisions/0051-see-through.md).
 #pragma once
 
 #include <algorithm>
@@ -22,9 +22,9 @@ namespace whittle {
 /// A solid that is seen through.
 struct VeilLayer {
   Tracer* tracer = nullptr;
-  Frame first;                ///< what the camera sees of it alone
-  uint32_t first_look = 0;    ///< what to add to its ids to find looks
-  bool is_ghost = false;      ///< no part of the solid: it casts no shadow, and is before others
+  Frame first;              ///< what the camera sees of it alone
+  uint32_t first_look = 0;  ///< what to add to its ids to find looks
+  bool is_ghost = false;    ///< no part of the solid: it casts no shadow, and is before others
 };
 
 /// A surface that a ray crosses before it meets what is opaque.
@@ -42,9 +42,9 @@ struct VeilWall {
 /// Crossings of the rays through some places of the picture.
 struct VeilSight {
   std::span<const PixelPosition> places;
-  std::span<const Hit> opaque;  ///< what is behind, one a place
-  std::vector<RayCrossings> crossings;          ///< a layer each
-  std::vector<std::vector<uint32_t>> ray_of;    ///< by layer, then place: which ray; kNone: none
+  std::span<const Hit> opaque;                ///< what is behind, one a place
+  std::vector<RayCrossings> crossings;        ///< a layer each
+  std::vector<std::vector<uint32_t>> ray_of;  ///< by layer, then place: which ray; kNone: none
   static constexpr uint32_t kNone = UINT32_MAX;
 };
 
@@ -60,8 +60,8 @@ struct VeilScratch {
 
 class Veil {
  public:
-  /// `looks` are those of all layers, `tolerance` is the model's: surfaces that are no farther apart
-  /// lie on one another. What the layers refer to must outlive this.
+  /// `looks` are those of all layers, `tolerance` is the model's: surfaces that are no farther
+  /// apart lie on one another. What the layers refer to must outlive this.
   Veil(std::vector<VeilLayer> layers, std::vector<Appearance> looks, const Camera& camera,
        const ShadeSettings& settings, double tolerance);
 
@@ -108,8 +108,8 @@ class Veil {
 };
 
 template <class Draw>
-void Veil::for_bands(const Frame& opaque, const Workers& workers,
-                     std::vector<uint8_t>& differences, const Draw& draw) {
+void Veil::for_bands(const Frame& opaque, const Workers& workers, std::vector<uint8_t>& differences,
+                     const Draw& draw) {
   constexpr size_t kPixelsPerBand = size_t(1) << 17;
   const size_t width = size_t(opaque.width), height = size_t(opaque.height);
   const size_t rows = std::max<size_t>(1, kPixelsPerBand / width);

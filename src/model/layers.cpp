@@ -112,9 +112,10 @@ class Classes {
   std::vector<Rgba> colors_;
 };
 
-/// What of a model is of one class.
-Model part_of(const Model& model, const Classes& classes, Class wanted) {
+/// What of a model is of one class; `found` is set if anything is.
+Model part_of(const Model& model, const Classes& classes, Class wanted, bool& found) {
   Model part;
+  found = false;
   NodeCopier copier(model, part);
   // What takes apart: unions, and differences and intersections whose other operands are tools.
   struct Scope {
@@ -142,6 +143,7 @@ Model part_of(const Model& model, const Classes& classes, Class wanted) {
     const bool is_tool = (around.kind == NodeKind::kDifference && !is_first) ||
                          (around.kind == NodeKind::kIntersection && own != kMixed);
     if (is_tool || own == wanted) {
+      found |= !is_tool;
       whole_end = node.end;
     } else if (own == kMixed) {
       scopes.push_back({node.end, is_tool_user(node.kind) ? node.kind : NodeKind::kUnion});
@@ -162,11 +164,13 @@ void add_layers(const Model& model, std::span<const Appearance> looks, LayerKind
   const Classes classes(model, looks);
   layers.has_many_colors |= classes.has_many_colors();
   const auto add = [&](Class own) {
-    Model part = part_of(model, classes, own);
-    if (!part.primitives.empty()) layers.see_through.push_back({kind, std::move(part)});
+    bool found = false;
+    Model part = part_of(model, classes, own, found);
+    if (found) layers.see_through.push_back({kind, std::move(part)});
   };
+  bool is_opaque = false;
   if (opaque_part)
-    *opaque_part = part_of(model, classes, kOpaque);
+    *opaque_part = part_of(model, classes, kOpaque, is_opaque);
   else
     add(kOpaque);
   for (Class own = kWhole; own < kColors + classes.colors(); ++own) add(own);
@@ -218,7 +222,8 @@ Model split_highlights(const Model& model, Model& shown) {
     if (i >= highlight_end && i >= body_end && is_marked[i]) {
       highlight_end = node.end;
       if (around.is_union) hidden_end = node.end;
-      if (around.world_from_parent != Affine{}) highlight.open_transform(around.world_from_parent, i);
+      if (around.world_from_parent != Affine{})
+        highlight.open_transform(around.world_from_parent, i);
     }
     if (i < highlight_end) highlight.open(i);
     if (i >= hidden_end) show.open(i);

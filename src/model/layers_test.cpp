@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "model/part_looks.h"
+
 namespace whittle {
 namespace {
 
@@ -13,7 +15,7 @@ class TreeForLayers {
   TreeForLayers() { model_.nodes.push_back({}); }
   TreeForLayers& open(NodeKind kind, bool highlight = false) {
     open_.push_back(uint32_t(model_.nodes.size()));
-    model_.nodes.push_back({.kind = kind, .highlight = highlight});
+    model_.nodes.push_back({.kind = kind, .highlight = highlight, .where = {}});
     return *this;
   }
   TreeForLayers& color(Rgba color) {
@@ -87,18 +89,34 @@ TEST(Layers, WhatIsOpaqueIsWhole) {
 
 TEST(Layers, EachSeeThroughColorIsOne) {
   const Model model = TreeForLayers()
-                          .color(kGlass).cube().close()
+                          .color(kGlass)
                           .cube()
-                          .move(1).color(kWater).cube().close().close()
-                          .open(NodeKind::kUnion).color(kGlass).cube().close().cube().close()
+                          .close()
+                          .cube()
+                          .move(1)
+                          .color(kWater)
+                          .cube()
+                          .close()
+                          .close()
+                          .open(NodeKind::kUnion)
+                          .color(kGlass)
+                          .cube()
+                          .close()
+                          .cube()
+                          .close()
                           .done();
-  EXPECT_EQ(shapes_of(layers_for_test(model)), "U(2 U(5)); U(P(1) U(P(4))); U(T(P(3)))");
+  EXPECT_EQ(shapes_of(layers_for_test(model)), "U(2 U(5)); U(P(1) U(P(4))); U(T(P(3)) U())");
 }
 
 TEST(Layers, ADifferenceIsDividedWithWhatItCuts) {
   const Model model = TreeForLayers()
                           .open(NodeKind::kDifference)
-                          .open(NodeKind::kUnion).color(kGlass).cube().close().cube().close()
+                          .open(NodeKind::kUnion)
+                          .color(kGlass)
+                          .cube()
+                          .close()
+                          .cube()
+                          .close()
                           .cube()
                           .close()
                           .done();
@@ -121,13 +139,28 @@ TEST(Layers, AnIntersectionIsDividedWithItsOneSeeThroughOperand) {
 TEST(Layers, WhatCannotBeDividedIsSeeThroughAsAWhole) {
   const Model two = TreeForLayers()
                         .open(NodeKind::kIntersection)
-                        .open(NodeKind::kUnion).color(kGlass).cube().close().cube().close()
-                        .open(NodeKind::kUnion).color(kGlass).cube().close().cube().close()
+                        .open(NodeKind::kUnion)
+                        .color(kGlass)
+                        .cube()
+                        .close()
+                        .cube()
+                        .close()
+                        .open(NodeKind::kUnion)
+                        .color(kGlass)
+                        .cube()
+                        .close()
+                        .cube()
+                        .close()
                         .close()
                         .done();
   EXPECT_EQ(shapes_of(layers_for_test(two)), "U(); U(I(U(P(1) 2) U(P(3) 4)))");
   const Model cutter = TreeForLayers()
-                           .open(NodeKind::kDifference).cube().color(kGlass).cube().close().close()
+                           .open(NodeKind::kDifference)
+                           .cube()
+                           .color(kGlass)
+                           .cube()
+                           .close()
+                           .close()
                            .cube()
                            .done();
   EXPECT_EQ(shapes_of(layers_for_test(cutter)), "U(3); U(D(1 P(2)))") << "its cut is see-through";
@@ -144,8 +177,14 @@ TEST(Layers, ManyColorsAreOneSolid) {
 
 TEST(Layers, HighlightsLeaveTheOutermostUnionsAlone) {
   const Model model = TreeForLayers()
-                          .move(2).cube(true).cube().close()
-                          .open(NodeKind::kDifference).cube().cube(true).close()
+                          .move(2)
+                          .cube(true)
+                          .cube()
+                          .close()
+                          .open(NodeKind::kDifference)
+                          .cube()
+                          .cube(true)
+                          .close()
                           .done();
   EXPECT_TRUE(layers_for_test(model).is_plain()) << "nobody asked for ghosts";
   const Layers layers = layers_for_test(model, {.ghosts = true});
@@ -163,10 +202,70 @@ TEST(Layers, AMarkedMinuendMarksTheDifference) {
 
 TEST(Layers, ThrownTogetherShowsCutters) {
   const Model model = TreeForLayers()
-                          .open(NodeKind::kDifference).cube().cube().close()
-                          .open(NodeKind::kIntersection).cube().cube().close()
+                          .open(NodeKind::kDifference)
+                          .cube()
+                          .cube()
+                          .close()
+                          .open(NodeKind::kIntersection)
+                          .cube()
+                          .cube()
+                          .close()
                           .done();
   EXPECT_EQ(shapes_of(layers_for_test(model, {.thrown_together = true})), "U(U(1 2) U(3 4))");
+}
+
+std::vector<Appearance> part_looks_of(const Model& model, bool& known) {
+  std::vector<Appearance> looks = appearances(model);
+  known = set_part_looks(model, looks);
+  return looks;
+}
+
+TEST(PartLooks, ACutHasTheLookOfWhatWasCut) {
+  bool known = false;
+  const Model model = TreeForLayers()
+                          .open(NodeKind::kDifference)
+                          .color(kRed)
+                          .cube()
+                          .close()
+                          .color(kWater)
+                          .cube()
+                          .close()
+                          .open(NodeKind::kDifference)
+                          .cube()
+                          .cube()
+                          .close()
+                          .close()
+                          .open(NodeKind::kDifference)
+                          .cube()
+                          .cube()
+                          .close()
+                          .done();
+  const std::vector<Appearance> looks = part_looks_of(model, known);
+  EXPECT_TRUE(known);
+  for (const uint32_t id : {1, 2, 3, 4}) EXPECT_EQ(looks[id].color, kRed) << id;
+  EXPECT_FALSE(looks[6].color.is_valid());
+  EXPECT_FALSE(looks[6].cut) << "it is painted as material";
+}
+
+TEST(PartLooks, WhatCutsPartsOfSeveralColorsKeepsItsOwn) {
+  bool known = true;
+  const Model model = TreeForLayers()
+                          .open(NodeKind::kDifference)
+                          .open(NodeKind::kUnion)
+                          .color(kRed)
+                          .cube()
+                          .close()
+                          .cube()
+                          .close()
+                          .color(kWater)
+                          .cube()
+                          .close()
+                          .close()
+                          .done();
+  const std::vector<Appearance> looks = part_looks_of(model, known);
+  EXPECT_FALSE(known);
+  EXPECT_EQ(looks[3].color, kWater);
+  EXPECT_TRUE(looks[3].cut);
 }
 
 }  // namespace

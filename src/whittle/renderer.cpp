@@ -18,6 +18,7 @@
 #include "image/studio.h"
 #include "lower/lower.h"
 #include "model/instances.h"
+#include "model/part_looks.h"
 #include "subdivide/solid_bounds.h"
 #include "subdivide/threshold.h"
 #include "trace/closeness.h"
@@ -55,6 +56,7 @@ struct Renderer::State {
   RendererSettings settings;
   Workers workers;
   std::vector<Appearance> looks;
+  bool has_unknown_parts = false;  ///< cuts of parts of several colours
   StageTimes times;
   std::optional<Box> solid;  ///< made when a camera first asks
   bool has_end = true;       ///< that is the solid's own box
@@ -148,6 +150,7 @@ Result<Renderer> Renderer::make(const Model& model, const RendererSettings& sett
   if (Status chosen = state->choose_backend(); !chosen) return chosen.error();
   const Stopwatch watch;
   state->looks = appearances(model);
+  if (settings.part_colors) state->has_unknown_parts = !set_part_looks(model, state->looks);
   Result<Scene> scene = lower(model, &state->workers);
   if (!scene) return scene.error();
   state->scene = std::move(*scene);
@@ -346,12 +349,12 @@ Status Renderer::State::look_through(const Camera& camera, const ShadeSettings& 
   if (!has_colors && !settings.ghosts && !settings.thrown_together) return Done{};
   if (!see_through) {
     if (all_layers().is_plain()) return Done{};
-    Result<std::unique_ptr<SeeThrough>> made =
-        SeeThrough::make(model, layers, looks, settings);
+    Result<std::unique_ptr<SeeThrough>> made = SeeThrough::make(model, layers, looks, settings);
     if (!made) return made.error();
     see_through = *std::move(made);
   }
-  Result<SeeThrough::Sight> found = see_through->look_from(camera, look, *sight.opaque, *sight.frame);
+  Result<SeeThrough::Sight> found =
+      see_through->look_from(camera, look, *sight.opaque, *sight.frame);
   if (!found) return found.error();
   sight = *std::move(found);
   return Done{};
@@ -381,8 +384,7 @@ Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
   SeeThrough::Sight sight{.opaque = &s.seen(), .frame = &frame, .veil = nullptr};
   if (Status found = s.look_through(camera, look, sight); !found) return found.error();
   const auto shaded = [&] {
-    const auto shade_in_style =
-        look.style == Style::kStudio ? shade_studio : shade_antialiased;
+    const auto shade_in_style = look.style == Style::kStudio ? shade_studio : shade_antialiased;
     return shade_in_style(*sight.opaque, camera, *sight.frame, s.looks, look, antialias, s.workers,
                           stop, sight.veil.get());
   };
@@ -429,8 +431,10 @@ Backend Renderer::backend() const {
   return state_->settings.backend;
 }
 
-std::string Renderer::see_through_note() {
+std::string Renderer::picture_note() {
   State& s = *state_;
+  if (s.has_unknown_parts)
+    return "--cut-color part: where parts of several colours were cut, the cut has the cutter's";
   const auto is_see_through = [](const Appearance& look) { return opacity(look) < 1; };
   if (s.model.drawing && std::ranges::any_of(s.looks, is_see_through))
     return "what is flat is drawn opaque, whatever the alpha of its colours";

@@ -58,6 +58,7 @@ struct RendererSettings {
   /// What pictures show beside the solid (model/layers.h). Facts are the solid's alone.
   bool ghosts = false;
   bool thrown_together = false;
+  bool part_colors = false;    ///< cuts have the colour of what was cut (model/part_looks.h)
   bool frames_bounds = false;  ///< bounds() are framed, as in OpenSCAD's preview, and not the solid
 };
 
@@ -123,7 +124,7 @@ class Renderer {
   /// The backend that is used; never kAuto.
   Backend backend() const;
   /// What of the pictures is not as the model says, as people read it; empty if all is.
-  std::string see_through_note();
+  std::string picture_note();
   /// What the backend works on, as people read it; for kAuto also why it is not what was tried
   /// first. Empty where there is nothing to say.
   const std::string& backend_note() const;

@@ -4,7 +4,8 @@
 
 namespace whittle {
 
-Result<std::unique_ptr<SeeThrough>> SeeThrough::make(const Model& model, std::shared_ptr<const Layers> layers,
+Result<std::unique_ptr<SeeThrough>> SeeThrough::make(const Model& model,
+                                                     std::shared_ptr<const Layers> layers,
                                                      std::span<const Appearance> looks,
                                                      const RendererSettings& settings) {
   std::unique_ptr<SeeThrough> made(new SeeThrough);
@@ -74,8 +75,7 @@ Result<SeeThrough::Sight> SeeThrough::look_from(const Camera& camera, const Shad
   for (Part& part : parts_) {
     Result<Frame> seen = trace(part, camera);
     if (!seen) return seen.error();
-    veils.push_back(
-        {&part.renderer->tracer(), *std::move(seen), part.first_look, part.is_ghost});
+    veils.push_back({&part.renderer->tracer(), *std::move(seen), part.first_look, part.is_ghost});
   }
   ShadeSettings look = settings;
   look.cut_faces = nullptr;

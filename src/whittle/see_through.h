@@ -20,7 +20,8 @@ class SeeThrough {
  public:
   /// Layers are seen by the oracle if that is the backend, and else by the CPU, whose pictures are
   /// the same as a device's. `layers` must have some to be seen through.
-  static Result<std::unique_ptr<SeeThrough>> make(const Model& model, std::shared_ptr<const Layers> layers,
+  static Result<std::unique_ptr<SeeThrough>> make(const Model& model,
+                                                  std::shared_ptr<const Layers> layers,
                                                   std::span<const Appearance> looks,
                                                   const RendererSettings& settings);
 
