@@ -1,6 +1,7 @@
 #include "evaluate/background.h"
 
 #include "csg/test_support.h"
+#include "model/instances.h"
 
 namespace whittle {
 namespace {

@@ -83,7 +83,7 @@ constexpr const char* kPlate =
     "cube([60, 60, 1], center = true);";
 
 std::string slab(double alpha) {
-  return fmt::format("color([1, 0.25, 0, {}]) cube([30, 30, 4], center = true);", alpha);
+  return fmt::format("color([1, 0.25, 0, {}]) cube([12, 12, 4], center = true);", alpha);
 }
 
 /// The levels of a slab of half that hides a share of what is behind it by either wall. Its walls
@@ -116,7 +116,7 @@ TEST(SeeThrough, WithoutABackgroundASlabIsAsOpaqueAsItsTwoWalls) {
 }
 
 TEST(SeeThrough, WhatIsOpaqueIsSeenWithinWhatIsNot) {
-  const std::string ball = "color([0, 1, 0, 1]) sphere(3);";
+  const std::string ball = "color([0, 1, 0, 1]) sphere(1.5);";
   for (const std::string& text : {slab(0.5) + ball, ball + slab(0.5)}) {
     const Shot shot = shoot(model_of(text), look_in(Style::kOpenscad));
     const uint8_t* seen = middle_of(shot.picture);
@@ -124,7 +124,7 @@ TEST(SeeThrough, WhatIsOpaqueIsSeenWithinWhatIsNot) {
     const double lit = 255 * (0.2 + 1 / std::sqrt(3.0));
     EXPECT_NEAR(seen[0], 0.5 * lit, 1.5) << text;
     EXPECT_NEAR(seen[1], (0.5 * 0.25 + 0.5) * lit, 1.5) << text;
-    EXPECT_NEAR(shot.frame.at(16, 16).distance, 47, 1e-4) << "a fact: the solid is what it was";
+    EXPECT_NEAR(shot.frame.at(16, 16).distance, 48, 1e-4) << "a fact: the solid is what it was";
   }
 }
 
@@ -214,7 +214,7 @@ TEST(SeeThrough, LayersTogetherAreTheSolid) {
     }
   }
   EXPECT_GT(taken_apart, 20u);
-  EXPECT_GT(inside, 500u);
+  EXPECT_GT(inside, 200u);
 }
 
 /// The share of pixels that differ by more than rounding.
@@ -275,7 +275,7 @@ TEST(SeeThrough, WhatIsHiddenFollowsFromTheOraclesSpans) {
       }
     }
   }
-  EXPECT_GT(thin, seen / 10);
+  EXPECT_GT(thin, 100u);
   EXPECT_LT(double(apart), 0.01 * double(seen));
 }
 
@@ -335,7 +335,8 @@ TEST(SeeThrough, CutsCanHaveThePartsColor) {
   Look look = look_in(Style::kOpenscad);
   const Model model = model_of(
       "difference() { color([0, 0, 1, 1]) cube([20, 20, 4], center = true);"
-      "  color([1, 0, 0, 1]) sphere(3); }");
+      "  color([1, 0, 0, 1]) multmatrix([[1,0,0,0],[0,1,0,0],[0,0,1,2],[0,0,0,1]])"
+      "    sphere(1.5); }");
   EXPECT_GT(middle_of(shoot(model, look).picture)[0], 50);
   EXPECT_EQ(middle_of(shoot(model, look).picture)[2], 0);
   look.renderer.part_colors = true;
