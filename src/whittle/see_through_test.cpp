@@ -179,13 +179,13 @@ TEST(SeeThrough, RenderKnowsNoAlpha) {
             shoot(model_of(slab(1)), look).picture.rgba);
 }
 
-/// Colours of random trees get alphas: of every third cube, sphere and so on.
+/// Colours of random trees get alphas: two of every seven cubes, spheres and so on.
 std::string with_alphas(std::string text) {
   size_t n = 0;
   for (const char* name : {"cube(", "sphere(", "cylinder("}) {
-    const std::string colors[] = {"color([1,0,0,0.5]) ", "", "color([0,0,1,0.3]) "};
+    const std::string colors[] = {"color([1,0,0,0.5]) ", "", "", "color([0,0,1,0.3]) ", "", "", ""};
     for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, at)) {
-      const std::string& color = colors[n++ % 3];
+      const std::string& color = colors[n++ % 7];
       text.insert(at, color);
       at += color.size() + 1;
     }
@@ -193,10 +193,15 @@ std::string with_alphas(std::string text) {
   return text;
 }
 
+/// An intersection of which each operand is see-through in part.
+const std::string kUnionsThatMeet =
+    "intersection() { union() { color([1, 0, 0, 0.5]) cube(9); cube([20, 5, 5], center = true); }"
+    "  union() { cube(8); color([1, 0, 0, 0.5]) cube([9, 9, 20], center = true); } }";
+
 TEST(SeeThrough, LayersTogetherAreTheSolid) {
   size_t inside = 0, taken_apart = 0;
-  for (uint64_t seed = 1; seed <= 60; ++seed) {
-    const Model model = model_of(with_alphas(random_tree(seed)));
+  for (uint64_t seed = 1; seed <= 200; ++seed) {
+    const Model model = model_of(seed == 1 ? kUnionsThatMeet : with_alphas(random_tree(seed)));
     const Layers layers = layers_of(model, appearances(model), {});
     if (layers.is_whole) continue;
     ++taken_apart;
@@ -259,7 +264,7 @@ TEST(SeeThrough, WhatIsHiddenFollowsFromTheOraclesSpans) {
   look.shading.background = false;
   ViewOptions view = from_above(15);
   size_t seen = 0, apart = 0, thin = 0;
-  for (uint64_t seed = 1; seed <= 40; ++seed) {
+  for (uint64_t seed = 1; seed <= 120; ++seed) {
     const Model model = model_of(with_alphas(random_tree(seed)));
     const std::vector<Appearance> looks = appearances(model);
     const Layers layers = layers_of(model, looks, {});
