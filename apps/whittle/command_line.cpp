@@ -42,6 +42,10 @@ void add_lenient_option(CLI::App& app, Loading& loading) {
 
 Status check_loading(const std::string& file, const Loading& loading) {
   if (Status possible = check_scad(file, loading.scad); !possible) return possible;
+  if (loading.scad.thrown_together && !loading.draws_previews) {
+    return Error{ErrorKind::kUsage,
+                 "--preview=throwntogether is for pictures: whittle FILE -o OUT.png"};
+  }
   if (!loading.import_root || kind_of_input(file) != InputKind::kScad) return Done{};
   return Error{ErrorKind::kUsage,
                "--import-root: openscad, which evaluates a .scad file, reads whatever the file "
@@ -64,6 +68,7 @@ FileOptions read_options(const Loading& loading) {
                       .threads = loading.threads ? *loading.threads : 0,
                       .limits = loading.limits,
                       .outlines = loading.outlines,
+                      .background = loading.background,
                       .solid_box = box_maker(loading.threads ? *loading.threads : 0),
                       .closed_mesh = mesh_maker(loading.threads ? *loading.threads : 0)},
           .import_root = loading.import_root,

@@ -18,7 +18,9 @@ namespace whittle {
 
 struct Loading {
   Curves curves = Curves::kAuto;
-  bool outlines = false;  ///< of drawings
+  bool outlines = false;        ///< of drawings
+  bool background = false;      ///< what `%` marks is read, too
+  bool draws_previews = false;  ///< --preview=throwntogether can be followed
   bool polish = true;
   ReadLimits limits;
   std::optional<std::string> import_root;

@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "ghost_options.h"
 #include "host/dependencies.h"
 #include "many_files.h"
 #include "render_arguments.h"
@@ -42,7 +43,7 @@ constexpr CommandHelp kHelp = {
     "2 bad usage, 3 refused by the machine (device, memory, disk).\n\n"
     "OpenSCAD's --render and --preview decide $preview of a .scad. --backend Manifold or\n"
     "CGAL, --csglimit, --debug, --check-parameters and --check-parameter-ranges change\n"
-    "no picture. Other views (--view, --preview=throwntogether) are refused."};
+    "no picture. --preview also draws what % and # mark. Other views (--view) are refused."};
 
 /// One file. The outputs are templates.
 Result<int> run_one(RenderArguments& a, std::vector<Output> outputs) {
@@ -91,6 +92,7 @@ Result<int> run(RenderArguments& a) {
   if (Status possible = check_templates(a.files, templates_of(a, *outputs), moves); !possible)
     return possible.error();
   suit_style(a.shading.style, a.loading);
+  if (Status possible = settle_ghosts(a); !possible) return possible.error();
   a.view.tight = frames_tightly(a.shading.style);
   apply(a.subdivision, a.renderer);
   a.shading.background = !a.no_background;

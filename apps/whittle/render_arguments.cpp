@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "ghost_options.h"
 #include "host/input_kinds.h"
 #include "option_group.h"
 
@@ -50,6 +51,7 @@ void add_options(CommandLine& line, RenderArguments& a) {
   add_style_options(app, a.shading);
   add_color_options(app, a.shading);
   add_shadow_option(app, a.shading);
+  add_ghost_options(app, a);
   look.add_count("--aa", "N", a.antialias, 1, kMostAntialias,
                  "N x N rays a pixel at edges, 1 to 16 (studio: 3, plain: 4)");
   look.add_flag("--no-background", a.no_background, "what is not hit is transparent");

@@ -63,6 +63,9 @@ Status draw(const RenderArguments& a, const std::vector<Output>& outputs, const 
       a.antialias > 0 ? a.antialias : default_antialias(a.shading.style, a.shading.quality);
   Result<Picture> shaded = renderer.shade(frame, camera, a.shading, rays);
   if (!shaded) return shaded.error();
+  const bool has_colors = a.shading.style != Style::kOpenscad || a.shading.is_preview;
+  const std::string note = has_colors ? renderer.picture_note() : std::string();
+  if (!note.empty() && !a.loading.quiet) say(fmt::format("{}: warning: {}", a.file, note));
   picture = *std::move(shaded);
   return Done{};
 }
@@ -116,6 +119,7 @@ Status write_lines(RenderArguments& a, const std::vector<Output>& outputs, bool 
   const Stopwatch watch;
   Loading loading = a.loading;
   loading.quiet = true;
+  loading.background = false;
   const Result<Read> read = load(a.file, loading);
   if (!read) return read.error();
   std::vector<std::string> paths;
@@ -142,6 +146,7 @@ Status write_shapes(RenderArguments& a, const std::vector<Output>& outputs, bool
   Loading loading = a.loading;
   loading.curves = curves_of_shape(loading.curves);
   loading.outlines = true;
+  loading.background = false;
   loading.quiet = loading.quiet || has_pictures;  // warnings were said
   const Result<Read> read = load(a.file, loading);
   if (!read) return read.error();

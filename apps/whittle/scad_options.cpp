@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "host/input_kinds.h"
 
 namespace whittle {
@@ -12,16 +10,13 @@ namespace {
 /// The program sees that it is rendered where --render is given and --preview is not, in whatever
 /// order they come.
 void add_preview_options(CommandLine& line, ScadArguments& scad) {
-  const auto previews = std::make_shared<bool>(false);
-  line.add_loose_flag("--preview", [&scad, previews](const std::string& value) {
-    if (value == "throwntogether") {
-      refuse("--preview", "throwntogether is not drawn by whittle");
-    }
-    *previews = true;
+  line.add_loose_flag("--preview", [&scad](const std::string& value) {
+    scad.previews = true;
+    scad.thrown_together = value == "throwntogether";
     scad.flatten.renders = false;
   });
   line.add_loose_flag("--render",
-                      [&scad, previews](const std::string&) { scad.flatten.renders = !*previews; });
+                      [&scad](const std::string&) { scad.flatten.renders = !scad.previews; });
 }
 
 }  // namespace

@@ -14,6 +14,8 @@ struct ScadArguments {
   FlattenOptions flatten;
   std::string set_variables;  ///< the last option that only a .scad file can follow; or empty
   bool hard_warnings = false;
+  bool previews = false;         ///< --preview is given,
+  bool thrown_together = false;  ///< as --preview=throwntogether
 };
 
 /// -D, -p, -P, --openscad and the like.

@@ -42,6 +42,8 @@ struct ReadOptions {
   NamedFiles named_files{};
   /// Whether a drawing gets its outlines (Drawing).
   bool outlines = false;
+  /// Whether what `%` marks is read, too (Model::background).
+  bool background = false;
   /// The exact box of a solid (subdivide/solid_bounds.h), for resize(); without it bounds() stand
   /// for it.
   std::function<Box(const Model&)> solid_box{};

@@ -13,11 +13,13 @@ constexpr Rgb8 hex(uint32_t rgb) {
 
 constexpr ColorScheme flat(std::string_view name, uint32_t background, uint32_t front,
                            uint32_t back) {
-  return {name, hex(background), hex(background), hex(front), hex(back), hex(front)};
+  return {name, hex(background), hex(background), hex(front), hex(back), hex(front), hex(back)};
 }
 
-constexpr ColorScheme with_lone(ColorScheme scheme, uint32_t lone) {
-  scheme.lone = hex(lone);
+/// Of schemes that have other colours for what is not evaluated.
+constexpr ColorScheme with_preview(ColorScheme scheme, uint32_t front, uint32_t back) {
+  scheme.lone = hex(front);
+  scheme.preview_back = hex(back);
   return scheme;
 }
 
@@ -38,12 +40,13 @@ constexpr std::array kSchemes{
     flat("Nocturnal Gem", 0x0C0C0C, 0x02DAF7, 0x014DA1),
     with_drawing(flat("DeepOcean", 0x333333, 0xEEEEEE, 0x0BABC8), 0x9370DB, 0xFF00FF),
     with_drawing(flat("Solarized", 0xFDF6E3, 0xB58800, 0x882233), 0x6C71C4, 0xB58800),
-    with_drawing(with_lone(flat("Tomorrow", 0xF8F8F8, 0x3E999F, 0xEAB700), 0x4271AE), 0x718C00,
-                 0xC82829),
-    with_drawing(with_lone(flat("Tomorrow Night", 0x1D1F21, 0x8ABEB7, 0xF0C674), 0x81A2BE),
-                 0xB5BD68, 0xCC6666),
+    with_drawing(with_preview(flat("Tomorrow", 0xF8F8F8, 0x3E999F, 0xEAB700), 0x4271AE, 0xF5871F),
+                 0x718C00, 0xC82829),
+    with_drawing(
+        with_preview(flat("Tomorrow Night", 0x1D1F21, 0x8ABEB7, 0xF0C674), 0x81A2BE, 0xDE935F),
+        0xB5BD68, 0xCC6666),
     ColorScheme{"ClearSky", hex(0x87CEEB), hex(0xC9E9F6), hex(0xFFEC5E), hex(0x9DCB51),
-                hex(0xF9D72C)},
+                hex(0xF9D72C), hex(0x9DCB51)},
     flat("Monotone", 0xFFFFE5, 0xF9D72C, 0xF9D72C),
 };
 

@@ -18,9 +18,10 @@ struct ColorScheme {
   Rgb8 background_top, background_bottom;  ///< the same but for gradients
   Rgb8 front;                              ///< uncoloured material
   Rgb8 back;                               ///< uncoloured cut surfaces
-  Rgb8 lone;                               ///< a primitive that is all of the solid
-  Rgb8 plane{0x00, 0xBF, 0x99};            ///< a drawing
-  Rgb8 outline{0xFF, 0x00, 0x00};          ///< and the lines around it
+  Rgb8 lone;          ///< a primitive that is all of the solid, and material in the preview
+  Rgb8 preview_back;  ///< cut surfaces in the preview
+  Rgb8 plane{0x00, 0xBF, 0x99};    ///< a drawing
+  Rgb8 outline{0xFF, 0x00, 0x00};  ///< and the lines around it
 };
 
 /// All schemes in OpenSCAD's order; the first, Cornfield, is its default.

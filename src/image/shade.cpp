@@ -20,6 +20,7 @@ constexpr ColorScheme kStudioScheme{"",
                                     {204, 210, 218},
                                     {216, 211, 204},
                                     {204, 210, 218},
+                                    {216, 211, 204},
                                     {86, 112, 146}};
 /// The plain style's: a cool light grey for material, a warm one for cuts. A drawing has one tone,
 /// and must stand out by that.
@@ -29,6 +30,7 @@ constexpr ColorScheme kPlainScheme{"",
                                    {196, 206, 218},
                                    {231, 199, 165},
                                    {196, 206, 218},
+                                   {231, 199, 165},
                                    {86, 112, 146}};
 /// As in the studio, but flat white behind: the paper's pictures stand on white.
 constexpr ColorScheme kBlinnScheme{"",
@@ -37,6 +39,7 @@ constexpr ColorScheme kBlinnScheme{"",
                                    {196, 206, 218},
                                    {231, 199, 165},
                                    {196, 206, 218},
+                                   {231, 199, 165},
                                    {86, 112, 146}};
 
 ColorScheme own_scheme(const ShadeSettings& settings) {
@@ -62,6 +65,7 @@ constexpr Vec3f kKeyDirection{-0.5f, 0.6f, 0.85f}, kFillDirection{0.85f, 0.05f, 
 
 ColorScheme effective_scheme(const ShadeSettings& settings) {
   ColorScheme scheme = own_scheme(settings);
+  if (settings.is_preview) scheme.front = scheme.lone, scheme.back = scheme.preview_back;
   if (settings.is_drawing) scheme.front = scheme.back = scheme.lone = scheme.plane;
   return scheme;
 }
@@ -117,7 +121,8 @@ Shader::Shader(const Camera& camera, std::span<const Appearance> appearances,
   const Vec3f material = decode(to_unit(scheme.front)), cut = decode(to_unit(scheme.back));
   p.materials.reserve(appearances.size() + 3);
   for (const Appearance& a : appearances) {
-    const bool has_color = p.style != Style::kOpenscad && a.color.is_valid();
+    const bool has_color =
+        (p.style != Style::kOpenscad || settings.is_preview) && a.color.is_valid();
     p.materials.push_back(has_color ? decode(base_color(a, scheme)) : a.cut ? cut : material);
   }
   if (p.style == Style::kOpenscad && settings.lone_primitive &&

@@ -32,6 +32,9 @@ struct ShadeSettings {
   const CutFaces* cut_faces = nullptr;
   /// kOpenscad: the primitive that is all of the solid, if it is one; it has a colour of its own.
   std::optional<uint32_t> lone_primitive;
+  /// kOpenscad: OpenSCAD's preview and not its --render: color() counts, uncoloured surfaces have
+  /// the scheme's colours for the preview, and the owner of a hit alone decides what is cut.
+  bool is_preview = false;
   /// The model is a drawing: it has the scheme's colour for those, in kOpenscad without any light.
   bool is_drawing = false;
   /// Not kOpenscad: lights reach only what they see. Then the key light has sharp edges.
@@ -61,7 +64,7 @@ std::vector<Light> lights(const Camera& camera, const ShadeSettings& settings);
 ColorScheme effective_scheme(const ShadeSettings& settings);
 
 /// The display value of a surface before any light falls on it: its own colour, else the scheme's.
-/// Not in style kOpenscad, which knows the scheme's alone.
+/// Not in style kOpenscad but for the preview: --render knows the scheme's alone.
 Vec3f base_color(const Appearance& appearance, const ColorScheme& scheme);
 
 /// Colours hits of one model seen by one camera. Colours are in the style's averaging space: linear
@@ -70,7 +73,7 @@ Vec3f base_color(const Appearance& appearance, const ColorScheme& scheme);
 class Shader {
  public:
   /// `appearances` is indexed by id; ids beyond it look like uncoloured material. Alpha of color()
-  /// is ignored: nothing is known of what stands behind a hit.
+  /// is ignored: nothing is known of what stands behind a hit (image/veil.h does).
   Shader(const Camera& camera, std::span<const Appearance> appearances,
          const ShadeSettings& settings);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <optional>
 #include <vector>
 
 #include "base/result.h"
@@ -54,19 +53,21 @@ struct Scratch {
   Colors colors, means;
   std::vector<PixelPosition> places;
   std::vector<uint8_t> rgba;
+  VeilScratch veil;
 };
 
 class Studio {
  public:
   Studio(Tracer& tracer, const Camera& camera, const Frame& frame,
          std::span<const Appearance> appearances, const ShadeSettings& settings,
-         const Workers& workers, const std::stop_token& stop)
+         const Workers& workers, const std::stop_token& stop, Veil* veil)
       : tracer_(tracer),
         camera_(camera),
         frame_(frame),
         settings_(settings),
         workers_(workers),
         stop_(stop),
+        veil_(veil),
         shader_(camera, appearances, settings),
         shadow_finder_(tracer, camera, settings, workers),
         scratch_(workers),
@@ -78,27 +79,33 @@ class Studio {
       return;
     openness_ =
         openness(tracer, camera, frame, occlusion_settings(settings.quality, reach), workers, stop);
-    if (settings.ground) ground_.emplace(tracer, camera, frame, settings, workers, stop);
+    if (!settings.ground) return;
+    grounds_.push_back({Ground(tracer, camera, frame, settings, workers, stop), 1});
+    for (size_t i = 0; veil && i < veil->layers().size(); ++i) {
+      const VeilLayer& layer = veil->layers()[i];
+      if (layer.is_ghost) continue;
+      grounds_.push_back(
+          {Ground(*layer.tracer, camera, frame, settings, workers, stop), veil->shade(i)});
+    }
   }
 
   /// Every pixel by what is seen through its middle.
   Picture draw_middles() {
     Picture picture = Picture::unfilled(frame_.width, frame_.height);
-    const size_t width = size_t(frame_.width);
-    workers_.for_parts(
-        size_t(frame_.height), kRowsPerTask, [&](size_t first, size_t last, size_t worker) {
-          Scratch& own = scratch_.of(worker);
-          for (size_t y = first; y < last; ++y) {
-            own.places.clear();
-            for (size_t x = 0; x < width; ++x)
-              own.places.push_back({float(x) + 0.5f, float(y) + 0.5f});
-            const auto hits = std::span(&frame_.hits[y * width], width);
-            shader_.samples(hits, own.places, reaching(y * width, width), own.seen, own.colors);
-            for (size_t x = 0; x < width; ++x)
-              if (!hits[x].hit()) darken_ground(own.places[x], own.colors, x);
-            shader_.store(own.colors, picture.at(0, int(y)));
-          }
-        });
+    const auto draw_rows = [&](size_t begin, size_t end, const VeilSight* sight) {
+      workers_.for_parts(end - begin, kRowsPerTask, [&](size_t first, size_t last, size_t worker) {
+        for (size_t y = begin + first; y < begin + last; ++y)
+          draw_row(y, begin, sight, scratch_.of(worker), picture);
+      });
+    };
+    if (veil_ == nullptr) {
+      draw_rows(0, size_t(frame_.height), nullptr);
+    } else {
+      veil_->for_bands(frame_, workers_, differences_,
+                       [&](size_t first, size_t last, const VeilSight& sight) {
+                         if (!stop_.stop_requested()) draw_rows(first, last, &sight);
+                       });
+    }
     return picture;
   }
 
@@ -114,6 +121,9 @@ class Studio {
     std::vector<Hit> hits;
     std::vector<uint8_t> shadows;
     std::vector<float> open;
+    VeilSight sight, middle_sight;
+    std::vector<PixelPosition> middles;
+    std::vector<Hit> middle_hits;
     for (size_t first = 0; first < edges.size() && !stop_.stop_requested(); first += batch) {
       const auto pixels = std::span(edges).subspan(first, std::min(batch, edges.size() - first));
       places.clear();
@@ -125,6 +135,15 @@ class Studio {
       tracer_.probe(camera_, places, hits);
       if (settings_.shadows) shadow_finder_.find(hits, places, shadows);
       open.assign(openness_.empty() ? 0 : places.size(), 1);
+      if (veil_) {
+        middles.clear(), middle_hits.clear();
+        for (const size_t pixel : pixels) {
+          middles.push_back(middle(pixel));
+          middle_hits.push_back(frame_.hits[pixel]);
+        }
+        veil_->look(places, hits, sight);
+        veil_->look(middles, middle_hits, middle_sight);
+      }
       workers_.for_parts(
           pixels.size(), kPixelsPerTask, [&](size_t begin, size_t end, size_t worker) {
             Scratch& own = scratch_.of(worker);
@@ -147,9 +166,12 @@ class Studio {
             shader_.samples(of_part(hits), of_part(places), {of_part(shadows), of_part(open)},
                             own.seen, own.colors);
             for (size_t k = begin; k < end; ++k)
-              find_mean(std::span(places).subspan(k * samples, samples),
+              draw_line(std::span(places).subspan(k * samples, samples),
                         std::span(hits).subspan(k * samples, samples), lines[k - begin], own,
-                        (k - begin) * samples, k - begin);
+                        (k - begin) * samples);
+            if (veil_) lay_veil(sight, middle_sight, begin, end, samples, own);
+            for (size_t k = begin; k < end; ++k)
+              find_mean(samples, own, (k - begin) * samples, k - begin);
             own.rgba.resize(4 * own.means.size);
             shader_.store(own.means, own.rgba.data());
             for (size_t k = begin; k < end; ++k)
@@ -159,6 +181,44 @@ class Studio {
   }
 
  private:
+  /// A shadow on the ground, and how much of the light it keeps away.
+  struct CastShadow {
+    Ground ground;
+    float strength = 1;
+  };
+
+  /// A row; the veil's places begin with row `begin`.
+  void draw_row(size_t y, size_t begin, const VeilSight* sight, Scratch& own, Picture& picture) {
+    const size_t width = size_t(frame_.width);
+    own.places.clear();
+    for (size_t x = 0; x < width; ++x) own.places.push_back({float(x) + 0.5f, float(y) + 0.5f});
+    const auto hits = std::span(&frame_.hits[y * width], width);
+    shader_.samples(hits, own.places, reaching(y * width, width), own.seen, own.colors);
+    for (size_t x = 0; x < width; ++x)
+      if (!hits[x].hit()) darken_ground(own.places[x], own.colors, x);
+    if (sight) {
+      veil_->find_walls(*sight, (y - begin) * width, width, own.veil);
+      veil_->cover(own.places, own.veil, own.colors, 0);
+    }
+    shader_.store(own.colors, picture.at(0, int(y)));
+  }
+
+  /// Lays what is see-through over the samples of some pixels, which are own.colors.
+  void lay_veil(const VeilSight& sight, const VeilSight& middle_sight, size_t begin, size_t end,
+                size_t samples, Scratch& own) const {
+    VeilScratch middles;
+    veil_->find_walls(middle_sight, begin, end - begin, middles);
+    veil_->find_walls(sight, begin * samples, (end - begin) * samples, own.veil);
+    const auto places = sight.places.subspan(begin * samples, (end - begin) * samples);
+    for (size_t k = 0; k < end - begin; ++k) {
+      const size_t first = k == 0 ? 0 : middles.ends[k - 1];
+      veil_->draw_lines(places, k * samples, (k + 1) * samples,
+                        std::span(middles.walls).subspan(first, middles.ends[k] - first),
+                        middle_sight.places[begin + k], own.veil);
+    }
+    veil_->cover(places, own.veil, own.colors, 0);
+  }
+
   Reaching reaching(size_t first, size_t count) const {
     const auto of = [&](const auto& all) {
       return all.empty()
@@ -175,7 +235,11 @@ class Studio {
   Spot spot_of(size_t pixel) const { return {camera_, middle(pixel), frame_.hits[pixel]}; }
 
   void darken_ground(PixelPosition place, Colors& colors, size_t i) const {
-    const float shadow = ground_ ? ground_->shadow(place.x, place.y) : 0;
+    float shadow = 0;
+    for (const CastShadow& cast : grounds_) {
+      const float own = cast.strength * cast.ground.shadow(place.x, place.y);
+      shadow = shadow == 0 ? own : 1 - (1 - shadow) * (1 - own);
+    }
     if (!settings_.background) {
       colors.r[i] = colors.g[i] = colors.b[i] = 0;
       colors.alpha[i] = shadow;
@@ -219,24 +283,35 @@ class Studio {
     }
   }
 
-  /// The mean of a pixel's samples, which stand at `first` in the colours.
-  void find_mean(std::span<const PixelPosition> places, std::span<const Hit> hits, float line,
-                 Scratch& own, size_t first, size_t pixel) const {
-    Vec3f sum;
-    float alpha = 0;
+  /// Darkens a pixel's samples, which stand at `first` in the colours: the ground, and lines.
+  void draw_line(std::span<const PixelPosition> places, std::span<const Hit> hits, float line,
+                 Scratch& own, size_t first) const {
     Colors& colors = own.colors;
     for (size_t k = 0; k < hits.size(); ++k) {
       const size_t s = first + k;
-      const bool is_hit = hits[k].hit();
-      if (!is_hit) darken_ground(places[k], colors, s);
+      if (!hits[k].hit()) {
+        darken_ground(places[k], colors, s);
+        continue;
+      }
       // A sample brighter than white is white: a highlight must not outshine an edge's other side.
+      for (std::vector<float>* v : {&colors.r, &colors.g, &colors.b})
+        (*v)[s] = std::min((*v)[s], 1.0f) * (1 - kLineDarkness * line);
+    }
+  }
+
+  /// The mean of a pixel's samples.
+  static void find_mean(size_t samples, Scratch& own, size_t first, size_t pixel) {
+    Vec3f sum;
+    float alpha = 0;
+    const Colors& colors = own.colors;
+    for (size_t s = first; s < first + samples; ++s) {
       const Vec3f color = min(Vec3f{colors.r[s], colors.g[s], colors.b[s]}, Vec3f{1, 1, 1});
-      sum += color * (colors.alpha[s] * (is_hit ? 1 - kLineDarkness * line : 1));
+      sum += color * colors.alpha[s];
       alpha += colors.alpha[s];
     }
     const Vec3f mean = alpha > 0 ? sum / alpha : Vec3f{};
     own.means.r[pixel] = mean.x, own.means.g[pixel] = mean.y, own.means.b[pixel] = mean.z;
-    own.means.alpha[pixel] = alpha / float(hits.size());
+    own.means.alpha[pixel] = alpha / float(samples);
   }
 
   Tracer& tracer_;
@@ -245,22 +320,23 @@ class Studio {
   const ShadeSettings& settings_;
   const Workers& workers_;
   const std::stop_token stop_;
+  Veil* const veil_;  ///< or null
   const Shader shader_;
   Shadows shadow_finder_;
   PerWorker<Scratch> scratch_;
-  const std::vector<uint8_t> differences_;
+  std::vector<uint8_t> differences_;
   std::vector<uint8_t> shadows_;  ///< or empty
   std::vector<float> openness_;   ///< or empty
-  std::optional<Ground> ground_;
+  std::vector<CastShadow> grounds_;
 };
 
 }  // namespace
 
 Picture shade_studio(Tracer& tracer, const Camera& camera, const Frame& frame,
                      std::span<const Appearance> appearances, const ShadeSettings& settings, int n,
-                     const Workers& workers, const std::stop_token& stop) {
+                     const Workers& workers, const std::stop_token& stop, Veil* veil) {
   WHITTLE_CHECK(settings.style == Style::kStudio);
-  Studio studio(tracer, camera, frame, appearances, settings, workers, stop);
+  Studio studio(tracer, camera, frame, appearances, settings, workers, stop, veil);
   Picture picture = studio.draw_middles();
   if (n > 1 && !stop.stop_requested()) studio.draw_edges(size_t(n), picture);
   return picture;

@@ -7,6 +7,7 @@
 #include <stop_token>
 
 #include "image/shade.h"
+#include "image/veil.h"
 #include "trace/tracer.h"
 
 namespace whittle {
@@ -18,8 +19,12 @@ inline constexpr double kOcclusionReach = 0.25;
 /// n * n samples that are spread over two pixels' width as a tent. n <= 1: one sample, no lines.
 /// Without background the ground's shadow is a translucent black. Deterministic. Once a stop is
 /// requested it returns soon, and the picture is of no use. Precondition: the style is kStudio.
+/// With a veil, tracer and frame are those of what is opaque: what is see-through is laid over
+/// that, with lines at its edges; it hides no light, but darkens the ground as much as its colour
+/// hides.
 Picture shade_studio(Tracer& tracer, const Camera& camera, const Frame& frame,
                      std::span<const Appearance> appearances, const ShadeSettings& settings, int n,
-                     const Workers& workers, const std::stop_token& stop = {});
+                     const Workers& workers, const std::stop_token& stop = {},
+                     Veil* veil = nullptr);
 
 }  // namespace whittle

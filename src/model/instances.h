@@ -66,6 +66,11 @@ struct Appearance {
   bool cut = false;  ///< reached through an odd number of subtractions
 };
 
+/// The share of what lies behind a surface that it hides, 0 to 1; without a valid colour all of it.
+inline float opacity(const Appearance& look) {
+  return look.color.is_valid() && look.color.a < 1 ? look.color.a : 1.0f;
+}
+
 /// Indexed by primitive id; entry 0 (background) is a default.
 std::vector<Appearance> appearances(const Model& model);
 

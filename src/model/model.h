@@ -7,6 +7,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -91,6 +92,9 @@ struct Model {
   uint32_t statement_count = 0;       ///< primitive statements in the file; ids are 1..this
   FileView view;
   std::optional<Drawing> drawing;  ///< if it is one
+  /// What `%` marks, where it stands, as a model of its own with this one's ids; null if there is
+  /// nothing, or nobody asked for it.
+  std::shared_ptr<const Model> background;
 };
 
 /// `file:line:column: ` + message, the form of every message about a file.

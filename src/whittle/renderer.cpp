@@ -18,12 +18,14 @@
 #include "image/studio.h"
 #include "lower/lower.h"
 #include "model/instances.h"
+#include "model/part_looks.h"
 #include "subdivide/solid_bounds.h"
 #include "subdivide/threshold.h"
 #include "trace/closeness.h"
 #include "trace/drawing_tracer.h"
 #include "trace/oracle/oracle.h"
 #include "trace/pixel_threshold.h"
+#include "whittle/see_through.h"
 
 namespace whittle {
 namespace {
@@ -54,9 +56,13 @@ struct Renderer::State {
   RendererSettings settings;
   Workers workers;
   std::vector<Appearance> looks;
+  bool has_unknown_parts = false;  ///< cuts of parts of several colours
   StageTimes times;
-  std::optional<Box> framed;  ///< made when a camera first asks
-  bool has_end = true;        ///< what is framed is the solid's own box
+  std::optional<Box> solid;  ///< made when a camera first asks
+  bool has_end = true;       ///< that is the solid's own box
+  // What is seen of it if parts are see-through; made when a picture first asks.
+  std::shared_ptr<const Layers> layers;
+  std::unique_ptr<SeeThrough> see_through;
   // In the order in which they are made from one another.
   Scene scene;
   std::optional<CutFaces> cut_faces;  ///< made when a style first asks
@@ -79,8 +85,11 @@ struct Renderer::State {
       : model(model_), settings(settings_), workers(settings_.threads) {}
 
   Status choose_backend();
-  /// What is framed where view-all is on.
-  const Box& framed_box();
+  /// The solid's box, or of one without end bounds().
+  const Box& solid_box();
+  /// What is shown beside the solid; empty if nothing is.
+  Box box_beside();
+  const Layers& all_layers();
   /// For as many rays as the camera has, or more if it looks closely at a part.
   Status make_tracer(const Camera& camera);
   Status make_tracer(const Camera& camera, double rays);
@@ -97,6 +106,7 @@ struct Renderer::State {
   Status look_from(const Camera& camera);
   Status move_threshold_to(const Camera& camera);
   Status look_closely(const Camera& camera);
+  Status look_through(const Camera& camera, const ShadeSettings& look, SeeThrough::Sight& sight);
   /// Gives back what make_tracer() made.
   void discard();
   /// After a refusal: true if the CPU goes on, else the refusal stands.
@@ -140,6 +150,7 @@ Result<Renderer> Renderer::make(const Model& model, const RendererSettings& sett
   if (Status chosen = state->choose_backend(); !chosen) return chosen.error();
   const Stopwatch watch;
   state->looks = appearances(model);
+  if (settings.part_colors) state->has_unknown_parts = !set_part_looks(model, state->looks);
   Result<Scene> scene = lower(model, &state->workers);
   if (!scene) return scene.error();
   state->scene = std::move(*scene);
@@ -147,13 +158,34 @@ Result<Renderer> Renderer::make(const Model& model, const RendererSettings& sett
   return Renderer(std::move(state));
 }
 
-const Box& Renderer::State::framed_box() {
-  if (!framed) {
-    const SolidBounds solid = solid_bounds(scene, settings.threads);
-    has_end = solid.bounded;
-    framed = seen_box(model, has_end ? solid.box : bounds(model).box);
+const Box& Renderer::State::solid_box() {
+  if (!solid) {
+    const SolidBounds found = solid_bounds(scene, settings.threads);
+    has_end = found.bounded;
+    solid = seen_box(model, has_end ? found.box : bounds(model).box);
   }
-  return *framed;
+  return *solid;
+}
+
+const Layers& Renderer::State::all_layers() {
+  if (!layers) {
+    layers = std::make_shared<const Layers>(
+        layers_of(model, looks, {settings.ghosts, settings.thrown_together}));
+  }
+  return *layers;
+}
+
+Box Renderer::State::box_beside() {
+  Box box;
+  const auto add = [&](const Model& more) {
+    if (const Bounds found = bounds(more); found.bounded) box = unite(box, found.box);
+  };
+  if (settings.frames_bounds && !model.drawing) add(model);
+  if (settings.thrown_together) add(all_layers().opaque);
+  if (settings.ghosts)
+    for (const Layer& layer : all_layers().see_through)
+      if (layer.kind != LayerKind::kPart) add(layer.model);
+  return box;
 }
 
 Camera Renderer::camera(const ViewOptions& options, GimbalView* view) {
@@ -161,12 +193,18 @@ Camera Renderer::camera(const ViewOptions& options, GimbalView* view) {
   const FileView& file = s.model.view;
   const Stopwatch watch;
   const bool frames = frames_the_solid(options, file);
-  const Box framed = frames ? s.framed_box() : Box{};
+  const Box beside = frames ? s.box_beside() : Box{};
+  const Box framed = frames ? unite(s.solid_box(), beside) : Box{};
   // How far a solid without end reaches nobody knows, and what a drawing shows has no height.
   const Reach reach = [&](const Directions& directions) {
     if (!s.has_end || s.model.drawing) return box_reach(framed, directions);
     std::array<double, 4> found;
-    std::ranges::copy(solid_reach(s.scene, framed, directions, s.settings.threads), found.begin());
+    std::ranges::copy(solid_reach(s.scene, s.solid_box(), directions, s.settings.threads),
+                      found.begin());
+    if (!beside.is_empty()) {
+      const std::array<double, 4> more = box_reach(beside, directions);
+      for (size_t i = 0; i < found.size(); ++i) found[i] = std::max(found[i], more[i]);
+    }
     return found;
   };
   const FramedView framing = frame_view(options, file, framed, reach);
@@ -304,6 +342,24 @@ Result<Frame> Renderer::trace(const Camera& camera, const RenderControl& control
   return frame;
 }
 
+/// Sees what is see-through by itself, if there is any. What --render shows knows no colours.
+Status Renderer::State::look_through(const Camera& camera, const ShadeSettings& look,
+                                     SeeThrough::Sight& sight) {
+  const bool has_colors = look.style != Style::kOpenscad || look.is_preview;
+  if (!has_colors && !settings.ghosts && !settings.thrown_together) return Done{};
+  if (!see_through) {
+    if (all_layers().is_plain()) return Done{};
+    Result<std::unique_ptr<SeeThrough>> made = SeeThrough::make(model, layers, looks, settings);
+    if (!made) return made.error();
+    see_through = *std::move(made);
+  }
+  Result<SeeThrough::Sight> found =
+      see_through->look_from(camera, look, *sight.opaque, *sight.frame);
+  if (!found) return found.error();
+  sight = *std::move(found);
+  return Done{};
+}
+
 Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
                                 const ShadeSettings& settings, int antialias,
                                 const std::stop_token& stop) {
@@ -312,7 +368,7 @@ Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
     return looks.error();
   const Stopwatch watch;
   ShadeSettings look = settings;
-  if (look.style == Style::kOpenscad) {
+  if (look.style == Style::kOpenscad && !look.is_preview) {
     if (!s.cut_faces) s.cut_faces.emplace(s.scene);
     look.cut_faces = &*s.cut_faces;
     look.lone_primitive = lone_primitive(s.model);
@@ -321,18 +377,21 @@ Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
   // On a plane there are none.
   if (look.shadows && !s.model.drawing) look.casters = view_region(bounds(s.model));
   if (look.style == Style::kStudio && !s.model.drawing) {
-    look.solid = s.framed_box();
+    look.solid = s.solid_box();
     // What is framed of a solid without end does not say how far down it reaches.
     look.ground = look.ground && s.has_end;
   }
+  SeeThrough::Sight sight{.opaque = &s.seen(), .frame = &frame, .veil = nullptr};
+  if (Status found = s.look_through(camera, look, sight); !found) return found.error();
   const auto shaded = [&] {
-    if (look.style == Style::kStudio)
-      return shade_studio(s.seen(), camera, frame, s.looks, look, antialias, s.workers, stop);
-    return shade_antialiased(s.seen(), camera, frame, s.looks, look, antialias, s.workers, stop);
+    const auto shade_in_style = look.style == Style::kStudio ? shade_studio : shade_antialiased;
+    return shade_in_style(*sight.opaque, camera, *sight.frame, s.looks, look, antialias, s.workers,
+                          stop, sight.veil.get());
   };
   Picture picture = shaded();
   if (const Status status = tracer().status(); !status) {
     if (!s.falls_back(status.error(), camera)) return status.error();
+    if (sight.frame == &frame) sight.opaque = &s.seen();
     picture = shaded();
   }
   if (look.is_drawing && look.style == Style::kOpenscad) {
@@ -370,6 +429,18 @@ RasterTracer* Renderer::raster_tracer() const {
 
 Backend Renderer::backend() const {
   return state_->settings.backend;
+}
+
+std::string Renderer::picture_note() {
+  State& s = *state_;
+  if (s.has_unknown_parts)
+    return "--cut-color part: where parts of several colours were cut, the cut has the cutter's";
+  const auto is_see_through = [](const Appearance& look) { return opacity(look) < 1; };
+  if (s.model.drawing && std::ranges::any_of(s.looks, is_see_through))
+    return "what is flat is drawn opaque, whatever the alpha of its colours";
+  if (s.model.drawing || !s.all_layers().has_many_colors) return {};
+  return fmt::format("of more than {} see-through colours, no walls are drawn between the others",
+                     kMostSeeThroughColors);
 }
 
 const std::string& Renderer::backend_note() const {

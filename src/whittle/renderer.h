@@ -55,6 +55,11 @@ struct RendererSettings {
   int threads = 0;              ///< 0: all
   SubdivideSettings subdivide;  ///< `rays` and `is_small` are set from the camera and below
   double pixel_threshold = 0;   ///< cells whose edges are all shorter are small; 0: none is
+  /// What pictures show beside the solid (model/layers.h). Facts are the solid's alone.
+  bool ghosts = false;
+  bool thrown_together = false;
+  bool part_colors = false;    ///< cuts have the colour of what was cut (model/part_looks.h)
+  bool frames_bounds = false;  ///< bounds() are framed, as in OpenSCAD's preview, and not the solid
 };
 
 /// When cells are refined. The pictures do not depend on it.
@@ -101,7 +106,9 @@ class Renderer {
   /// Gives back what prepare() made; it may be called again.
   void discard();
   /// Precondition of all below: prepare() was called.
-  /// Once a stop is requested, these two return soon, and what they return is of no use.
+  /// Once a stop is requested, these two return soon, and what they return is of no use. Where
+  /// parts are see-through, shade() looks at each by itself; then only where it is whole and opaque
+  /// is the solid seen as in `frame`.
   Result<Frame> trace(const Camera& camera, const RenderControl& control = {});
   Result<Picture> shade(const Frame& frame, const Camera& camera, const ShadeSettings& settings,
                         int antialias, const std::stop_token& stop = {});
@@ -116,6 +123,8 @@ class Renderer {
   RasterTracer* raster_tracer() const;
   /// The backend that is used; never kAuto.
   Backend backend() const;
+  /// What of the pictures is not as the model says, as people read it; empty if all is.
+  std::string picture_note();
   /// What the backend works on, as people read it; for kAuto also why it is not what was tried
   /// first. Empty where there is nothing to say.
   const std::string& backend_note() const;

@@ -65,8 +65,6 @@ TEST_F(DropIn, WhatChangesNoPictureIsSilent) {
 }
 
 TEST_F(DropIn, WhatWouldBeAnotherPictureIsRefused) {
-  expect_refused({"part.csg", "-o", "x.png", "--preview=throwntogether"},
-                 "--preview: throwntogether is not drawn by whittle\n");
   for (const char* view : {"axes", "crosshairs", "edges", "scales", "axes,edges"}) {
     expect_refused({"part.csg", "-o", "x.png", "--view", view},
                    "--view: axes, crosshairs, edges, scales and the wireframe are not drawn");
