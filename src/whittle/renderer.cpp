@@ -81,6 +81,8 @@ struct Renderer::State {
   Status choose_backend();
   /// What is framed where view-all is on.
   const Box& framed_box();
+  /// How far that reaches.
+  Reach framed_reach();
   /// For as many rays as the camera has, or more if it looks closely at a part.
   Status make_tracer(const Camera& camera);
   Status make_tracer(const Camera& camera, double rays);
@@ -156,23 +158,49 @@ const Box& Renderer::State::framed_box() {
   return *framed;
 }
 
+Reach Renderer::State::framed_reach() {
+  const Box box = framed_box();
+  // How far a solid without end reaches nobody knows, and what a drawing shows has no height.
+  const bool is_known = has_end && !model.drawing;
+  return [this, box, is_known](const Directions& directions) {
+    if (!is_known) return box_reach(box, directions);
+    std::array<double, 4> found;
+    std::ranges::copy(solid_reach(scene, box, directions, settings.threads), found.begin());
+    return found;
+  };
+}
+
 Camera Renderer::camera(const ViewOptions& options, GimbalView* view) {
   State& s = *state_;
   const FileView& file = s.model.view;
   const Stopwatch watch;
   const bool frames = frames_the_solid(options, file);
   const Box framed = frames ? s.framed_box() : Box{};
-  // How far a solid without end reaches nobody knows, and what a drawing shows has no height.
-  const Reach reach = [&](const Directions& directions) {
-    if (!s.has_end || s.model.drawing) return box_reach(framed, directions);
-    std::array<double, 4> found;
-    std::ranges::copy(solid_reach(s.scene, framed, directions, s.settings.threads), found.begin());
-    return found;
-  };
-  const FramedView framing = frame_view(options, file, framed, reach);
+  const FramedView framing = frame_view(options, file, framed, frames ? s.framed_reach() : Reach());
   s.times.frame = watch.milliseconds();
   if (view) *view = framing.view;
   return framing.camera;
+}
+
+Turntable Renderer::turntable(const ViewOptions& options, GimbalView* view) {
+  State& s = *state_;
+  const FileView& file = s.model.view;
+  const Stopwatch watch;
+  const bool frames = frames_the_solid(options, file);
+  const Box framed = frames ? s.framed_box() : Box{};
+  // What stands where without the solid.
+  const Vec3 looked_at = frame_view(options, file, Box{}, Reach()).view.target;
+  const bool fits = frames && !framed.is_empty() && framed.is_finite();
+  const Vec3 axis = fits && centers_the_solid(options, file) ? framed.center() : looked_at;
+  const Reach reach = fits ? swept_reach(s.framed_reach(), axis) : Reach();
+  const FramedView framing = frame_view(options, file, framed, reach);
+  s.times.frame = watch.milliseconds();
+  if (view) *view = framing.view;
+  return {framing.camera, axis};
+}
+
+const Box& Renderer::framed_box() {
+  return state_->framed_box();
 }
 
 Tracer& Renderer::State::seen() {
