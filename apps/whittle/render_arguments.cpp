@@ -13,10 +13,16 @@ namespace {
 
 constexpr double kLeastScale = 1e-6, kMostScale = 1e6;
 
+/// On two lines.
+std::string help_of_formats() {
+  std::string help = names_of(export_format_choices()) + "; whatever OUT ends in";
+  const size_t films = help.find("gif");
+  return films == std::string::npos ? help : help.insert(films, "\n");
+}
+
 TemplateWords words_of(const RenderArguments& a) {
   TemplateWords words{template_name(a.file)};
-  if (a.view.named || !a.sheet.views.empty())
-    words.view = name_of(named_view_choices(), a.view.named.value_or(NamedView::kFront));
+  if (a.view.named) words.view = name_of(named_view_choices(), *a.view.named);
   return words;
 }
 
@@ -80,12 +86,16 @@ Status check_overlays(const RenderArguments& a) {
   return Done{};
 }
 
-/// Where an output goes, or the first of several files.
-std::string path_to_try(const RenderArguments& a, const Output& output) {
+/// Where an output goes; of frames the first.
+std::vector<std::string> paths_of(const RenderArguments& a, const Output& output) {
   if (a.moves() && !output.is_film())
-    return frame_output(a, output.path, a.openscad.animation.first());
-  // All other templates are filled.
-  return a.moves() || !a.sheet.views.empty() ? still_output(a, output.path) : output.path;
+    return {frame_output(a, output.path, a.openscad.animation.first())};
+  if (a.moves()) return {still_output(a, output.path)};
+  if (a.sheet.views.empty()) return {output.path};
+  if (!has_word(output.path, "view")) return {still_output(a, output.path)};
+  std::vector<std::string> paths;
+  for (const NamedView view : a.sheet.views) paths.push_back(view_output(a, output.path, view));
+  return paths;
 }
 
 /// What cannot be an output of theirs.
@@ -119,14 +129,12 @@ void add_options(CommandLine& line, RenderArguments& a) {
                   "or a drawing (.svg, .dxf; of a solid an .svg, in lines), each -o\n"
                   "one; '-': standard output; {name} in it is FILE's name",
                   [&](const std::string& path) { a.outputs.push_back(path); });
-  output.add_text(
-      "--export-format", "NAME", names_of(export_format_choices()) + ",\nwhatever OUT ends in",
-      [&](const std::string& name) {
-        const Result<ExportFormat> format = choose(export_format_choices(), "format", name);
-        if (!format)
-          refuse("--export-format", refusal_of_format(name).value_or(format.error().message));
-        a.export_format = *format;
-      });
+  output.add_text("--export-format", "NAME", help_of_formats(), [&](const std::string& name) {
+    const Result<ExportFormat> format = choose(export_format_choices(), "format", name);
+    if (!format)
+      refuse("--export-format", refusal_of_format(name).value_or(format.error().message));
+    a.export_format = *format;
+  });
   output.add_choice("--pass", pass_choices(), "pass", "what a PNG shows: {}",
                     [&](Pass pass) { a.pass = pass; });
   output.add_flag("--hidden-lines", a.lines.hidden, "an .svg shows hidden lines, dashed");
@@ -206,6 +214,12 @@ std::string still_output(const RenderArguments& a, const std::string& pattern) {
   return *fill_template(pattern, words_of(a));
 }
 
+std::string view_output(const RenderArguments& a, const std::string& pattern, NamedView view) {
+  TemplateWords words = words_of(a);
+  words.view = name_of(named_view_choices(), view);
+  return *fill_template(pattern, words);
+}
+
 std::string frame_output(const RenderArguments& a, const std::string& pattern, int frame) {
   TemplateWords words = words_of(a);
   words.n = fmt::format("{:05}", frame);
@@ -227,7 +241,8 @@ Status check_possible(const RenderArguments& a, const std::vector<Output>& outpu
   std::vector<std::string> paths;
   for (const Output& output : outputs) {
     if (Status possible = check_frame_output(a, output); !possible) return possible;
-    paths.push_back(path_to_try(a, output));
+    const std::vector<std::string> more = paths_of(a, output);
+    paths.insert(paths.end(), more.begin(), more.end());
   }
   if (a.openscad.dependency_file) paths.push_back(*a.openscad.dependency_file);
   if (a.summary.file) paths.push_back(*a.summary.file);

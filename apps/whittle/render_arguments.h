@@ -65,9 +65,10 @@ Result<std::vector<Output>> choose_outputs(const RenderArguments& a);
 std::vector<OutputTemplate> templates_of(const RenderArguments& a,
                                          const std::vector<Output>& outputs);
 
-/// Where an output goes: what has no number, and a frame. Precondition: check_templates() found no
-/// mistake.
+/// Where an output goes: what has no number, one of --views, and a frame. Precondition:
+/// check_templates() found no mistake.
 std::string still_output(const RenderArguments& a, const std::string& pattern);
+std::string view_output(const RenderArguments& a, const std::string& pattern, NamedView view);
 std::string frame_output(const RenderArguments& a, const std::string& pattern, int frame);
 
 /// Fails for what can not be done, before it has begun.

@@ -88,7 +88,7 @@ Status write_drawings(const RenderArguments& a, const std::vector<Output>& outpu
     one.view.named = view;
     std::vector<Output> files = outputs;
     std::vector<std::string> paths;
-    for (Output& file : files) paths.push_back(file.path = still_output(one, file.path));
+    for (Output& file : files) paths.push_back(file.path = view_output(a, file.path, view));
     const Status written = write_line_files(
         read.model, paths,
         {one.view, lines, a.renderer.threads, a.loading.quiet, a.wants_statistics});
@@ -140,7 +140,7 @@ Status render_views(RenderArguments& a, const std::vector<Output>& outputs, Made
     for (const NamedView view : pictures.empty() ? std::vector<NamedView>() : a.sheet.views) {
       one.view.named = view;
       std::vector<Output> files = pictures;
-      for (Output& file : files) file.path = still_output(one, file.path);
+      for (Output& file : files) file.path = view_output(a, file.path, view);
       const Result<Drawn> drawn =
           draw_picture(one, files, renderer->camera(one.view), *renderer, progress);
       if (!drawn) return drawn.error();

@@ -138,6 +138,9 @@ TEST_F(Sheets, WhatCannotBeIsRefused) {
   expect_refused({"flat.csg", "--views", "top", "-o", "x.png"}, 1, "flat.csg: error: is flat");
   expect_refused({"flat.csg", "--views", "top", "-o", "x.svg"}, 1, "flat.csg: error: is flat");
   expect_refused({"empty.csg", "--views", "top", "-o", "x.svg"}, 1, "empty.csg: ");
+  write("top.svg", "<svg/>");
+  expect_refused({"top.svg", "--views", "left,top", "-o", "{view}.svg"}, 2,
+                 "whittle: -o top.svg is the file that is read");
   expect_refused(with({"--scale-bar"}), 2, "whittle: --scale-bar is for --projection ortho");
   expect_refused(with({"--grid", "--pass", "depth"}), 2, "whittle: --pass depth: --axes");
   expect_refused(with({"--title", std::string(201, 'x')}), 2, "whittle: --title: has 201 bytes");

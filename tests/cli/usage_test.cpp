@@ -81,7 +81,7 @@ TEST_F(Usage, TheEndingOfTheOutputMustBeKnown) {
   EXPECT_EQ(
       standard.err,
       "whittle: -o - (standard output) needs --export-format png, exr, stl, off, obj, 3mf, amf, "
-      "svg, dxf, binstl, asciistl\n");
+      "svg, dxf, gif, apng, mp4, webm, binstl, asciistl\n");
 }
 
 TEST_F(Usage, StandardOutputHoldsOnePicture) {
