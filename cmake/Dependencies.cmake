@@ -14,6 +14,7 @@ endif()
 find_package(fmt REQUIRED)             # libfmt-dev: text
 find_package(PNG REQUIRED)             # libpng-dev: pictures
 find_package(ZLIB REQUIRED)            # zlib1g-dev: files in archives; libpng needs it too
+find_package(GIF REQUIRED)             # libgif-dev: animated pictures
 find_package(OpenEXR REQUIRED)         # libopenexr-dev: facts as pictures; opened when the first one is met
 # libqhull-dev: convex hulls. Its own CMake package wants Qhull's programs too. Linked whole, so that it
 # costs nothing when the program starts.

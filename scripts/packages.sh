@@ -12,6 +12,7 @@ build_packages=(
   nlohmann-json3-dev  # machine-readable output
   libpng-dev          # pictures
   zlib1g-dev          # files in archives; libpng needs it too
+  libgif-dev          # animated pictures
   libopenexr-dev      # facts as pictures
   libqhull-dev        # convex hulls
   pkgconf             # finds what ships no CMake package
@@ -37,6 +38,7 @@ test_packages=(
   openscad            # flattens .scad files; a picture to agree with
   xvfb                # a display for it
   make                # reads the dependencies that -d writes
+  ffmpeg              # makes films, and says what is in them
   lowdown             # makes the manual page
   nodejs              # runs Manifold, an independent judge of meshes,
   curl                # which scripts/fetch_manifold brings

@@ -173,6 +173,8 @@ void add_view_options(CLI::App& app, ViewOptions& view) {
                    if (!parsed) refuse("--camera", parsed.error().message);
                    view = *std::move(parsed);
                  });
+  group.add_choice("--from", named_view_choices(), "view", "{}:\nall of the solid from there",
+                   [&view](NamedView named) { view.named = named; });
   group.add_flag("--viewall", view.view_all, "choose the distance so that all is seen");
   group.add_flag("--autocenter", view.auto_center, "with --viewall: look at the middle");
   group.add_choice("--projection", projection_choices(), "projection", "{}",

@@ -54,7 +54,9 @@ void add_openscad_options(CommandLine& line, OpenscadArguments& openscad) {
   shown.add_text("-d", "FILE", "a dependency file for make",
                  [&](const std::string& path) { openscad.dependency_file = path; });
   hidden.add_each("--view", "VALUE", "", [](const std::string&) {
-    refuse("--view", "axes, crosshairs, edges, scales and the wireframe are not drawn by whittle");
+    refuse("--view",
+           "axes, crosshairs, edges, scales and the wireframe are not drawn as openscad does; "
+           "--axes and --grid are whittle's own");
   });
   for (const char* name : {"-s", "-x"}) {
     hidden.add_each(name, "FILE", "", [name](const std::string&) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -12,20 +11,12 @@
 #include "base/timing.h"
 #include "base/workers.h"
 #include "model/instances.h"
+#include "trace/turntable.h"
 
 namespace whittle {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// The camera after a turn about the vertical through a point.
-Camera turned(Camera camera, Vec3 about, double degrees) {
-  const double angle = degrees * std::acos(-1.0) / 180, c = std::cos(angle), s = std::sin(angle);
-  const auto turn = [&](Vec3 v) { return Vec3{c * v.x - s * v.y, s * v.x + c * v.y, v.z}; };
-  camera.eye = about + turn(camera.eye - about);
-  for (Vec3* const axis : {&camera.right, &camera.up, &camera.forward}) *axis = turn(*axis);
-  return camera;
-}
 
 uint64_t refined(const Renderer& renderer) {
   return renderer.cells() != nullptr ? statistics_of(*renderer.cells()).refined : 0;

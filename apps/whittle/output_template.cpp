@@ -65,13 +65,16 @@ Result<std::string> fill_template(std::string_view pattern, const TemplateWords&
           if (value) {
             filled += *value;
           } else {
-            blame(word == "n" ? "{n} is the number of a frame, and there is no --animate"
-                              : "{view} is for several views, and there is one");
+            blame(word == "n"
+                      ? "{n} is the number of a frame, and here is no frame of --animate or "
+                        "--turntable"
+                      : "{view} is the name of a view, and here is none of --from or --views");
           }
         } else {
-          blame(
-              fmt::format("there is no {{{}}}; there are {{name}} and{} {{n}}, and {{{{ is a brace",
-                          word, words.n ? "" : ", with --animate,"));
+          blame(fmt::format("there is no {{{}}}; there are {{name}}{}, and {{{{ is a brace", word,
+                            words.n ? " and {n}"
+                                    : ", with --animate or --turntable {n}, with --from or --views "
+                                      "{view}"));
         }
       });
   if (!is_closed) blame("a brace is not closed; {{ is one that stands for itself");
@@ -91,10 +94,11 @@ std::string template_name(const std::string& input) {
 }
 
 Status check_templates(const std::vector<std::string>& files,
-                       const std::vector<OutputTemplate>& templates, bool moves) {
+                       const std::vector<OutputTemplate>& templates, bool moves, bool has_views) {
   const auto fill = [&](const OutputTemplate& output, const std::string& file) {
     TemplateWords words{template_name(file)};
     if (moves && output.has_frames) words.n = "00000";
+    if (has_views && output.has_views) words.view = "front";
     return fill_template(output.pattern, words);
   };
   for (const OutputTemplate& output : templates) {

@@ -32,12 +32,14 @@ std::string template_name(const std::string& input);
 struct OutputTemplate {
   const char* option;
   std::string pattern;
-  bool has_frames;  ///< of an animation there is one of each frame
+  bool has_frames;  ///< there is one of each frame
+  bool has_views;   ///< there may be one of each view
 };
 
 /// A kUsage error if a template has a mistake, if several files would be written to one, or if an
-/// output is one of several files that are read. `moves`: it is an animation.
+/// output is one of several files that are read. `moves`: there are frames; `has_views`: views have
+/// names.
 Status check_templates(const std::vector<std::string>& files,
-                       const std::vector<OutputTemplate>& templates, bool moves);
+                       const std::vector<OutputTemplate>& templates, bool moves, bool has_views);
 
 }  // namespace whittle

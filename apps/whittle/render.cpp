@@ -4,11 +4,13 @@
 
 #include "commands.h"
 #include "console.h"
+#include "film_files.h"
 #include "ghost_options.h"
 #include "host/dependencies.h"
 #include "many_files.h"
 #include "render_arguments.h"
 #include "render_files.h"
+#include "sheet_files.h"
 
 namespace whittle {
 namespace {
@@ -35,6 +37,8 @@ constexpr CommandHelp kHelp = {
     "  whittle part.csg -o part.png -o facts.exr --imgsize 1920,1080\n"
     "  whittle part.csg -o top.png --camera 0,0,0,0,0,0,200 --projection ortho\n"
     "  whittle part.csg -o part.stl\n"
+    "  whittle part.csg --views front,right,top,iso -o sheet.png\n"
+    "  whittle part.csg --turntable 72 -o part.gif\n"
     "  whittle *.csg -o 'pictures/{name}.png'\n"
     "  whittle part.csg -o part.svg --projection ortho --hidden-lines\n"
     "  openscad -o - --export-format csg part.scad | whittle - -o part.png\n\n"
@@ -47,19 +51,20 @@ constexpr CommandHelp kHelp = {
 
 /// One file. The outputs are templates.
 Result<int> run_one(RenderArguments& a, std::vector<Output> outputs) {
-  const bool moves = a.openscad.animation.frames > 0;
-  const auto fill = [&](std::string& path) {
-    path = *fill_template(path, {template_name(a.file)});
-  };
+  const auto fill = [&](std::string& path) { path = still_output(a, path); };
+  const bool has_templates = a.moves() || !a.sheet.views.empty();
   for (Output& output : outputs)
-    if (!moves) fill(output.path);
+    if (!has_templates) fill(output.path);
   if (a.openscad.dependency_file) fill(*a.openscad.dependency_file);
   if (a.summary.file) fill(*a.summary.file);
   if (a.reference.file) fill(*a.reference.file);
   if (a.reference.difference) fill(*a.reference.difference);
   if (Status possible = check_possible(a, outputs); !possible) return possible.error();
   Made made;
-  Status done = moves ? render_frames(a, outputs, made) : render_still(a, outputs, made);
+  Status done = a.film.turntable > 0     ? render_turntable(a, outputs, made)
+                : a.moves()              ? render_frames(a, outputs, made)
+                : !a.sheet.views.empty() ? render_views(a, outputs, made)
+                                         : render_still(a, outputs, made);
   if (done && a.openscad.dependency_file) {
     done = write_output(*a.openscad.dependency_file, write_dependencies(made.targets, made.files));
   }
@@ -88,8 +93,9 @@ Result<int> run(RenderArguments& a) {
   const Result<std::vector<Output>> outputs = choose_outputs(a);
   if (!outputs) return outputs.error();
   if (Status possible = settle_device(a.renderer); !possible) return possible.error();
-  const bool moves = a.openscad.animation.frames > 0;
-  if (Status possible = check_templates(a.files, templates_of(a, *outputs), moves); !possible)
+  if (Status possible = check_templates(a.files, templates_of(a, *outputs), a.moves(),
+                                        a.view.named || !a.sheet.views.empty());
+      !possible)
     return possible.error();
   suit_style(a.shading.style, a.loading);
   if (Status possible = settle_ghosts(a); !possible) return possible.error();

@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "command_line.h"
+#include "film_options.h"
 #include "openscad_options.h"
 #include "output_template.h"
+#include "overlay_options.h"
 #include "reference.h"
+#include "sheet_options.h"
 #include "summary.h"
 #include "whittle/export_format.h"
 #include "whittle/line_output.h"
@@ -22,6 +25,7 @@ struct Output {
   ExportFormat format;
 
   bool is_picture() const { return std::holds_alternative<FileFormat>(format); }
+  bool is_film() const { return std::holds_alternative<FilmFormat>(format); }
   bool is(FileFormat picture) const { return format == ExportFormat(picture); }
 };
 
@@ -41,9 +45,15 @@ struct RenderArguments {
   RendererSettings renderer;
   SubdivisionArguments subdivision;
   OpenscadArguments openscad;
+  FilmArguments film;
+  SheetArguments sheet;
+  OverlaySettings overlays;
   SummaryArguments summary;
   ReferenceArguments reference;
   bool wants_statistics = false;
+
+  /// Whether there are several pictures, which have numbers.
+  bool moves() const { return openscad.animation.frames > 0 || film.turntable > 0; }
 };
 
 void add_options(CommandLine& line, RenderArguments& a);
@@ -55,7 +65,10 @@ Result<std::vector<Output>> choose_outputs(const RenderArguments& a);
 std::vector<OutputTemplate> templates_of(const RenderArguments& a,
                                          const std::vector<Output>& outputs);
 
-/// Where an output of a frame goes. Precondition: check_templates() found no mistake.
+/// Where an output goes: what has no number, one of --views, and a frame. Precondition:
+/// check_templates() found no mistake.
+std::string still_output(const RenderArguments& a, const std::string& pattern);
+std::string view_output(const RenderArguments& a, const std::string& pattern, NamedView view);
 std::string frame_output(const RenderArguments& a, const std::string& pattern, int frame);
 
 /// Fails for what can not be done, before it has begun.

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <set>
 #include <utility>
 
 #include "base/timing.h"
+#include "draw_picture.h"
+#include "frame_files.h"
 #include "frame_reader.h"
 #include "line_files.h"
 #include "progress.h"
@@ -19,80 +22,38 @@
 namespace whittle {
 namespace {
 
-/// What a PNG shows.
-Picture shown(const RenderArguments& a, const Frame& frame, const Picture& picture) {
-  return a.pass == Pass::kColor ? picture : pass_picture(frame, a.pass, !a.no_background);
-}
-
-Status write_all(const RenderArguments& a, const std::vector<Output>& outputs, const Frame& frame,
-                 const Picture& picture) {
-  for (const Output& output : outputs) {
-    const Result<std::string> bytes =
-        encode(std::get<FileFormat>(output.format), frame,
-               output.is(FileFormat::kPng) ? shown(a, frame, picture) : picture, a.no_background,
-               output.path, a.renderer.threads);
-    if (!bytes) return bytes.error();
-    if (Status written = write_output(output.path, *bytes); !written) return written;
-  }
-  return Done{};
-}
-
-Status compare_if_asked(const RenderArguments& a, const Frame& frame, const Picture& picture) {
+Status compare_if_asked(const RenderArguments& a, const Drawn& drawn) {
   if (!a.reference.file) return Done{};
-  return compare_with_reference(a.reference, a.file, frame,
-                                a.reference.wants_picture() ? shown(a, frame, picture) : Picture(),
-                                a.no_background);
+  return compare_with_reference(
+      a.reference, a.file, drawn.frame,
+      a.reference.wants_picture() ? shown(a, drawn.frame, drawn.picture) : Picture(),
+      a.no_background);
 }
 
-/// Traces and shades; pictures that no output shows are not made.
-Status draw(const RenderArguments& a, const std::vector<Output>& outputs, const Camera& camera,
-            Renderer& renderer, Frame& frame, Picture& picture) {
-  ProgressLine progress(!a.loading.quiet, "subdividing");
-  if (Status prepared = renderer.prepare(camera); !prepared) return prepared;
-  progress.stage("tracing");
-  Result<Frame> traced = renderer.trace(camera, {.progress = progress.share()});
-  if (!traced) return traced.error();
-  frame = *std::move(traced);
-  const bool shows_color =
-      a.pass == Pass::kColor || std::ranges::any_of(outputs, [](const Output& output) {
-        return output.is(FileFormat::kExr);
-      });
-  if (!shows_color) return Done{};
-  progress.stage("shading");
-  const int rays =
-      a.antialias > 0 ? a.antialias : default_antialias(a.shading.style, a.shading.quality);
-  Result<Picture> shaded = renderer.shade(frame, camera, a.shading, rays);
-  if (!shaded) return shaded.error();
-  const bool has_colors = a.shading.style != Style::kOpenscad || a.shading.is_preview;
-  const std::string note = has_colors ? renderer.picture_note() : std::string();
-  if (!note.empty() && !a.loading.quiet) say(fmt::format("{}: warning: {}", a.file, note));
-  picture = *std::move(shaded);
-  return Done{};
-}
+/// Takes what is drawn to where it is shown.
+using Show = std::function<Status(Drawn)>;
 
-Status tell_summary(const RenderArguments& a, const SummaryFacts& facts) {
-  if (!a.summary.parts.empty() && !a.loading.quiet) {
-    if (const std::string lines = summary_lines(facts, a.summary); !lines.empty()) say_lines(lines);
-  }
-  return a.summary.file ? write_output(*a.summary.file, summary_json(facts, a.summary)) : Done{};
-}
-
-/// One picture, from what was read to the files that show it. What a summary says of it goes to
-/// `facts`, what --reference finds to made.
+/// One picture of what was read. What a summary says of it goes to `facts`, what --reference finds
+/// to made.
 Status render(RenderArguments& a, const std::vector<Output>& outputs, const Model& model,
-              const Stopwatch& watch, Made& made, SummaryFacts& facts) {
+              const Stopwatch& watch, const Show& show, Made& made, SummaryFacts& facts) {
   RunTimes times{.read = watch.milliseconds()};
   Result<Renderer> renderer = Renderer::make(model, a.renderer);
   if (!renderer) return renderer.error();
   GimbalView view;
   const Camera camera = renderer->camera(a.view, &view);
-  Frame frame;
-  Picture picture;
-  if (Status drawn = draw(a, outputs, camera, *renderer, frame, picture); !drawn) return drawn;
-  say_if_nothing_is_seen(model, frame, a.loading);
+  const auto draw = [&]() -> Result<Drawn> {
+    ProgressLine progress(!a.loading.quiet, "subdividing");
+    if (Status prepared = renderer->prepare(camera); !prepared) return prepared.error();
+    return draw_picture(a, outputs, camera, *renderer, progress);
+  };
+  Result<Drawn> drawn = draw();
+  if (!drawn) return drawn.error();
+  say_if_nothing_is_seen(model, drawn->frame, a.loading);
+  made.compared = compare_if_asked(a, *drawn);
 
   const Stopwatch writing;
-  if (Status written = write_all(a, outputs, frame, picture); !written) return written;
+  if (Status shown = show(*std::move(drawn)); !shown) return shown;
   times.write = writing.milliseconds();
   times.total = watch.milliseconds();
   if (a.wants_statistics) {
@@ -102,7 +63,6 @@ Status render(RenderArguments& a, const std::vector<Output>& outputs, const Mode
     facts = {view,
              {.dimensions = model.drawing ? 2 : 3, .box = tight_box(model, a.renderer.threads)},
              times.total};
-  made.compared = compare_if_asked(a, frame, picture);
   return Done{};
 }
 
@@ -176,6 +136,13 @@ Status write_shapes(RenderArguments& a, const std::vector<Output>& outputs, bool
 
 }  // namespace
 
+Status tell_summary(const RenderArguments& a, const SummaryFacts& facts) {
+  if (!a.summary.parts.empty() && !a.loading.quiet) {
+    if (const std::string lines = summary_lines(facts, a.summary); !lines.empty()) say_lines(lines);
+  }
+  return a.summary.file ? write_output(*a.summary.file, summary_json(facts, a.summary)) : Done{};
+}
+
 Status render_still(RenderArguments& a, const std::vector<Output>& outputs, Made& made) {
   std::vector<Output> pictures, shapes;
   for (const Output& output : outputs) (output.is_picture() ? pictures : shapes).push_back(output);
@@ -186,7 +153,9 @@ Status render_still(RenderArguments& a, const std::vector<Output>& outputs, Made
     const Stopwatch watch;
     const Result<Read> read = load(a.file, a.loading);
     if (!read) return read.error();
-    if (Status done = render(a, pictures, read->model, watch, made, facts); !done) return done;
+    const Show show = [&](const Drawn& drawn) { return write_pictures(a, pictures, drawn); };
+    if (Status done = render(a, pictures, read->model, watch, show, made, facts); !done)
+      return done;
     made.add(pictures, *read);
     made.code = code_for(*read, a.loading, "picture");
   }
@@ -202,6 +171,8 @@ Status render_frames(RenderArguments& a, const std::vector<Output>& outputs, Mad
   for (int i = animation.first(); i < animation.last(); ++i) {
     times.push_back(double(i) / animation.frames);
   }
+  FrameFiles files(a, outputs, int(times.size()));
+  if (Status opened = files.open(); !opened) return opened;
   FrameReader reader(a.file, read_options(a.loading), times);
   std::set<std::string> said;
   for (size_t i = 0; i < times.size(); ++i) {
@@ -214,18 +185,19 @@ Status render_frames(RenderArguments& a, const std::vector<Output>& outputs, Mad
     std::erase_if(read->warnings,
                   [&](const std::string& warning) { return !said.insert(warning).second; });
     if (Status fit = say_warnings(*read, a.loading); !fit) return fit;
-    std::vector<Output> frame = outputs;
-    for (Output& output : frame) {
-      output.path = frame_output(a, output.path, animation.first() + int(i));
-    }
+    const int number = animation.first() + int(i);
+    const Show show = [&](Drawn drawn) { return files.add(number, std::move(drawn)); };
     SummaryFacts facts;
-    if (Status done = render(a, frame, read->model, watch, made, facts); !done) return done;
+    if (Status done = render(a, outputs, read->model, watch, show, made, facts); !done) return done;
     if (a.summary.is_wanted()) {
       if (Status done = tell_summary(a, facts); !done) return done;
     }
-    made.add(frame, *read);
+    made.add(outputs_of_frame(a, outputs, number), *read);
     if (made.code == kExitDone) made.code = code_for(*read, a.loading, "picture");
   }
+  if (Status done = files.finish(); !done) return done;
+  for (const Output& output : outputs)
+    if (output.is_film()) made.targets.push_back(still_output(a, output.path));
   return Done{};
 }
 

@@ -27,6 +27,10 @@ struct Made {
 /// Pictures first: what is no solid to print may well be seen.
 Status render_still(RenderArguments& a, const std::vector<Output>& outputs, Made& made);
 
+/// Says what --summary asks for.
+Status tell_summary(const RenderArguments& a, const SummaryFacts& facts);
+
+/// Of --animate. `outputs`: templates.
 Status render_frames(RenderArguments& a, const std::vector<Output>& outputs, Made& made);
 
 }  // namespace whittle

@@ -60,6 +60,13 @@ bool open_as(int number, const char* path, int flags) {
   return done;
 }
 
+bool take_input(const ProgramSurroundings& surroundings) {
+  const int given = surroundings.input_descriptor;
+  if (given < 0) return open_as(STDIN_FILENO, surroundings.input.c_str(), O_RDONLY);
+  // Where it is already that, it must only stay open.
+  return given == STDIN_FILENO ? ::fcntl(given, F_SETFD, 0) == 0 : ::dup2(given, STDIN_FILENO) >= 0;
+}
+
 /// What happens in the child; if it returns, errno says why. Only what is allowed between fork and
 /// exec where there are other threads. (posix_spawn would do all of it but PR_SET_PDEATHSIG.)
 void become(const char* program, const char* const* arguments,
@@ -70,7 +77,7 @@ void become(const char* program, const char* const* arguments,
 #endif
   // It may have gone before that was said.
   if (::getppid() != parent) ::_exit(1);
-  if (!open_as(STDIN_FILENO, surroundings.input.c_str(), O_RDONLY) ||
+  if (!take_input(surroundings) ||
       !open_as(STDOUT_FILENO, surroundings.messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC) ||
       ::dup2(STDOUT_FILENO, STDERR_FILENO) < 0) {
     return;

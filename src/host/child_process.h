@@ -13,6 +13,7 @@ struct ProgramSurroundings {
   std::string messages;             ///< the file that its output and errors go to
   std::string input = "/dev/null";  ///< the file that it reads as standard input
   std::string folder{};             ///< where it runs; empty: here
+  int input_descriptor = -1;        ///< not negative: an open file that stands for `input`
 };
 
 /// Runs a program without a shell. `arguments` end with a null. The status as of waitpid, or the

@@ -20,6 +20,7 @@
 #include "host/openscad_messages.h"
 #include "host/openscad_view.h"
 #include "host/output_file.h"
+#include "host/piped_program.h"
 #include "host/private_folder.h"
 
 namespace whittle {
@@ -31,24 +32,6 @@ Error failure(ErrorKind kind, const std::string& path, const std::string& why) {
 
 std::string reason(int error) {
   return std::generic_category().message(error);
-}
-
-std::optional<std::string> find_program(const std::string& name) {
-  if (name.find('/') != std::string::npos) {
-    return ::access(name.c_str(), X_OK) == 0 ? std::optional(name) : std::nullopt;
-  }
-  const char* const variable = std::getenv("PATH");
-  std::string_view rest = variable ? variable : "";
-  while (!rest.empty()) {
-    const size_t colon = std::min(rest.find(':'), rest.size());
-    const std::string_view folder = rest.substr(0, colon);
-    rest.remove_prefix(std::min(colon + 1, rest.size()));
-    // An empty entry means the current folder, where a program of that name is rather a trap.
-    if (folder.empty()) continue;
-    std::string candidate = fmt::format("{}/{}", folder, name);
-    if (::access(candidate.c_str(), X_OK) == 0) return candidate;
-  }
-  return std::nullopt;
 }
 
 /// What the user calls openscad.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image/line_coverage.h"
+
 namespace whittle {
 namespace {
 
@@ -26,33 +28,10 @@ void LineLayer::draw(Vec3 from, Vec3 to, const Ink& ink) {
 
 void LineLayer::draw_projected(const ProjectedLine& line, const Ink& ink) {
   const Vec3 start = line.from, way = line.to - start;
-  const double squared = way.x * way.x + way.y * way.y;
-  const bool is_flat = std::fabs(way.x) >= std::fabs(way.y);
-  const int major = is_flat ? 0 : 1, minor = 1 - major;
-  const int size[2] = {camera_.width, camera_.height};
-  const double slope = way[major] != 0 ? way[minor] / way[major] : 0;
-  // Half of how far the line's ink reaches, measured along a column or row.
-  const double reach = (kRadius + 0.5) * std::sqrt(1 + slope * slope);
-  const auto pixel = [](double v, int pixels) {
-    return int(std::clamp(std::floor(v), -1.0, double(pixels)));
-  };
-  const double lowest = std::min(start[major], start[major] + way[major]) - reach,
-               highest = std::max(start[major], start[major] + way[major]) + reach;
-  const int first = std::max(0, pixel(lowest, size[major])),
-            last = std::min(size[major] - 1, pixel(highest, size[major]));
-  for (int i = first; i <= last; ++i) {
-    const double middle = start[minor] + slope * (i + 0.5 - start[major]);
-    const int from = std::max(0, pixel(middle - reach, size[minor])),
-              to = std::min(size[minor] - 1, pixel(middle + reach, size[minor]));
-    for (int j = from; j <= to; ++j) {
-      const double px = (is_flat ? i : j) + 0.5 - start.x, py = (is_flat ? j : i) + 0.5 - start.y;
-      const double along =
-          squared > 0 ? std::clamp((px * way.x + py * way.y) / squared, 0.0, 1.0) : 0;
-      const double off = std::hypot(px - along * way.x, py - along * way.y);
-      const double covered = std::clamp(kRadius + 0.5 - off, 0.0, 1.0);
-      if (covered > 0) touch(is_flat ? i : j, is_flat ? j : i, start + way * along, covered, ink);
-    }
-  }
+  for_covered_pixels({line.from.x, line.from.y}, {line.to.x, line.to.y}, kRadius, camera_.width,
+                     camera_.height, [&](int x, int y, double along, double covered) {
+                       touch(x, y, start + way * along, covered, ink);
+                     });
 }
 
 void LineLayer::touch(int x, int y, Vec3 projected, double covered, const Ink& ink) {

@@ -23,6 +23,7 @@ enum class LineKind {
   kSilhouette,  ///< the solid looks to the eye on one side and away on the other
   kEdge,        ///< it looks to the eye on both sides
   kHidden,      ///< of both kinds
+  kDimension,   ///< no line of the solid: says how large it is, or is a word
 };
 
 struct DrawnPath {

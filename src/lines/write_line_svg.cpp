@@ -51,7 +51,17 @@ std::string escaped(std::string_view text) {
 }
 
 const char* class_of(LineKind kind) {
-  return kind == LineKind::kSilhouette ? "silhouette" : kind == LineKind::kEdge ? "edge" : "hidden";
+  switch (kind) {
+    case LineKind::kSilhouette:
+      return "silhouette";
+    case LineKind::kEdge:
+      return "edge";
+    case LineKind::kHidden:
+      return "hidden";
+    case LineKind::kDimension:
+      return "dimension";
+  }
+  return "";
 }
 
 /// Widths as ISO 128 has them; dashes are 12 and 3 widths long there, which is hard to see where
@@ -84,6 +94,8 @@ std::string write_line_svg(const LineDrawing& drawing, std::string_view title) {
     return text;
   };
   const char* const unit = drawing.is_to_scale ? "mm" : "";
+  const bool has_dimensions = std::ranges::any_of(
+      drawing.paths, [](const DrawnPath& path) { return path.kind == LineKind::kDimension; });
   std::string out = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}{}\" height=\"{}{}\" "
@@ -91,12 +103,14 @@ std::string write_line_svg(const LineDrawing& drawing, std::string_view title) {
       "<title>{}</title>\n"
       "<style>\n"
       "path {{ fill: none; stroke: black; stroke-linecap: round; stroke-linejoin: round }}\n"
-      "{}</style>\n",
+      "{}{}</style>\n",
       number(drawing.size.x), unit, number(drawing.size.y), unit, number(drawing.corner.x),
       number(drawing.corner.y), number(drawing.size.x), number(drawing.size.y), escaped(title),
-      drawing.is_to_scale ? kStyleToScale : kStyleOfPicture);
+      drawing.is_to_scale ? kStyleToScale : kStyleOfPicture,
+      has_dimensions ? ".dimension { stroke-width: 0.25 }\n" : "");
   // Thick lines are drawn over thin ones.
-  for (const LineKind kind : {LineKind::kHidden, LineKind::kEdge, LineKind::kSilhouette}) {
+  for (const LineKind kind :
+       {LineKind::kDimension, LineKind::kHidden, LineKind::kEdge, LineKind::kSilhouette}) {
     bool is_open = false;
     for (const DrawnPath& path : drawing.paths) {
       if (path.kind != kind) continue;

@@ -8,8 +8,9 @@
 
 namespace whittle {
 
-/// Black lines on nothing. One group a kind, of the classes `silhouette`, `edge` and `hidden`, and
-/// one style sheet that says how these look. `title`: what is drawn. Based on: SVG 1.1.
+/// Black lines on nothing. One group a kind, of the classes `silhouette`, `edge`, `hidden` and
+/// `dimension`, and one style sheet that says how these look. `title`: what is drawn. Based on:
+/// SVG 1.1.
 std::string write_line_svg(const LineDrawing& drawing, std::string_view title);
 
 }  // namespace whittle

@@ -44,6 +44,12 @@ Pose vector_pose(Vec3 eye, Vec3 center) {
   return pose;
 }
 
+/// Whether a camera is given by numbers.
+bool gives_numbers(const ViewOptions& options) {
+  return options.eye || options.center || options.target || options.rotation_degrees ||
+         options.distance;
+}
+
 bool gives_view(const FileView& file) {
   return file.target || file.rotation_degrees || file.distance || file.fov_degrees;
 }
@@ -59,6 +65,10 @@ Vec3 gimbal_rotation(Vec3 forward) {
 
 double tangent_of(double degrees) {
   return std::tan(degrees * (std::acos(-1.0) / 180));
+}
+
+std::optional<Vec3> rotation_given(const ViewOptions& options) {
+  return options.named ? rotation_of(*options.named) : options.rotation_degrees;
 }
 
 /// Moves the eye to where the solid fills the picture, without turning it.
@@ -100,10 +110,10 @@ Framed frame(const ViewOptions& options, const FileView& file, const Box& framed
   const bool camera_given = gives_camera(options);
   const bool file_given = !camera_given && gives_view(file);
   const bool view_all = frames_the_solid(options, file);
-  const bool auto_center = camera_given ? options.auto_center : !file_given;
+  const bool auto_center = centers_the_solid(options, file);
   const FileView said = file_given ? file
                                    : FileView{.target = options.target,
-                                              .rotation_degrees = options.rotation_degrees,
+                                              .rotation_degrees = rotation_given(options),
                                               .distance = options.distance,
                                               .fov_degrees = {}};
 
@@ -136,15 +146,20 @@ Framed frame(const ViewOptions& options, const FileView& file, const Box& framed
 }  // namespace
 
 bool frames_the_solid(const ViewOptions& options, const FileView& file) {
-  return gives_camera(options) ? options.view_all : !gives_view(file);
+  return gives_camera(options) ? options.view_all || options.named : !gives_view(file);
+}
+
+bool centers_the_solid(const ViewOptions& options, const FileView& file) {
+  return gives_camera(options) ? options.auto_center || options.named : !gives_view(file);
 }
 
 bool gives_camera(const ViewOptions& options) {
-  return options.eye || options.center || options.target || options.rotation_degrees ||
-         options.distance;
+  return options.named || gives_numbers(options);
 }
 
 Status check_view(const ViewOptions& options) {
+  if (options.named && gives_numbers(options))
+    return Error{ErrorKind::kUsage, "--from and --camera each say where the eye is; give one"};
   if (options.distance.value_or(0) >= 0 || options.view_all) return Done{};
   return Error{ErrorKind::kUsage,
                "Camera distance must not be negative, unless the view of all replaces it"};

@@ -14,6 +14,7 @@
 #include "base/result.h"
 #include "model/model.h"
 #include "trace/camera.h"
+#include "trace/named_view.h"
 
 namespace whittle {
 
@@ -28,8 +29,10 @@ inline constexpr double kTightFill = 0.85;
 
 /// What the command line says about the view. If any of target, rotation_degrees, distance, eye and
 /// center is set, a camera was given: the file's $vp* do not count, and what is missing has
-/// OpenSCAD's defaults. eye and center win over the other three.
+/// OpenSCAD's defaults. eye and center win over the other three. A named view is a camera, too; it
+/// frames the solid, and nothing else may be said beside it.
 struct ViewOptions {
+  std::optional<NamedView> named{};
   std::optional<Vec3> target;            ///< the point looked at
   std::optional<Vec3> rotation_degrees;  ///< OpenSCAD's Euler angles; (0, 0, 0) looks straight down
   std::optional<double> distance;        ///< from eye to target, model units
@@ -42,15 +45,19 @@ struct ViewOptions {
   int width = 512, height = 512;      ///< pixels, positive
 };
 
-/// Whether a camera is given: any of target, rotation_degrees, distance, eye and center.
+/// Whether a camera is given: a name, or any of target, rotation_degrees, distance, eye and center.
 bool gives_camera(const ViewOptions& options);
 
-/// A kUsage error for a negative distance, unless view-all replaces it.
+/// A kUsage error for a negative distance, unless view-all replaces it; and for a named view beside
+/// another camera.
 Status check_view(const ViewOptions& options);
 
 /// Whether make_camera would look at `framed_box`: view-all is asked for, or nothing is said about
 /// the view.
 bool frames_the_solid(const ViewOptions& options, const FileView& file);
+
+/// Whether it then also looks at the middle of the box.
+bool centers_the_solid(const ViewOptions& options, const FileView& file);
 
 /// A view in OpenSCAD's words: what $vpt, $vpr, $vpd and $vpf would be.
 struct GimbalView {

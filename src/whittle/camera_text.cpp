@@ -62,7 +62,8 @@ std::string camera_text(const ViewOptions& options) {
     return list(options.eye.value_or(center + Vec3{0, 0, kDefaultDistance})) + ',' + list(center);
   }
   return list(options.target.value_or(Vec3{})) + ',' +
-         list(options.rotation_degrees.value_or(kDefaultRotationDegrees)) +
+         list(options.named ? rotation_of(*options.named)
+                            : options.rotation_degrees.value_or(kDefaultRotationDegrees)) +
          fmt::format(",{}", options.distance.value_or(kDefaultDistance));
 }
 

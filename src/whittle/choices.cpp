@@ -28,6 +28,10 @@ constexpr Choice<ShaderCases> kShaders[] = {{"specialised", ShaderCases::kSpecia
 constexpr Choice<bool> kCulling[] = {{"on", true}, {"off", false}};
 constexpr Choice<bool> kProjections[] = {
     {"perspective", false}, {"p", false}, {"orthogonal", true}, {"ortho", true}, {"o", true}};
+constexpr Choice<NamedView> kNamedViews[] = {
+    {"front", NamedView::kFront}, {"back", NamedView::kBack}, {"left", NamedView::kLeft},
+    {"right", NamedView::kRight}, {"top", NamedView::kTop},   {"bottom", NamedView::kBottom},
+    {"iso", NamedView::kIso}};
 constexpr Choice<bool> kSmallCells[] = {{"trace", false}, {"ignore", true}};
 constexpr Choice<CellView> kCellViews[] = {{"edges", CellView::kEdges},
                                            {"faces", CellView::kFaces}};
@@ -66,6 +70,9 @@ Choices<bool> culling_choices() {
 }
 Choices<bool> projection_choices() {
   return kProjections;
+}
+Choices<NamedView> named_view_choices() {
+  return kNamedViews;
 }
 Choices<bool> small_cells_choices() {
   return kSmallCells;

@@ -11,6 +11,7 @@
 #include "image/shade.h"
 #include "shape/fragments.h"
 #include "subdivide/subdivide.h"
+#include "trace/named_view.h"
 #include "whittle/options.h"
 
 namespace whittle {
@@ -19,6 +20,9 @@ namespace whittle {
 enum class Pass { kColor, kDepth, kNormal, kId };
 
 enum class FileFormat { kPng, kExr };
+
+/// Of several pictures.
+enum class FilmFormat { kGif, kApng, kMp4, kWebm };
 
 template <class T>
 struct Choice {
@@ -43,6 +47,8 @@ Choices<ShaderCases> shaders_choices();
 Choices<bool> culling_choices();
 /// OpenSCAD's words for --projection; true: orthographic.
 Choices<bool> projection_choices();
+/// Views by their names, for --from.
+Choices<NamedView> named_view_choices();
 /// What becomes of cells too small to split; true: they are ignored.
 Choices<bool> small_cells_choices();
 Choices<CellView> cell_view_choices();

@@ -14,7 +14,9 @@ constexpr Choice<ExportFormat> kFormats[] = {
     {"stl", SolidFormat::kStl},          {"off", SolidFormat::kOff},
     {"obj", SolidFormat::kObj},          {"3mf", SolidFormat::k3mf},
     {"amf", SolidFormat::kAmf},          {"svg", DrawingFormat::kSvg},
-    {"dxf", DrawingFormat::kDxf},        {"binstl", SolidFormat::kStl},
+    {"dxf", DrawingFormat::kDxf},        {"gif", FilmFormat::kGif},
+    {"apng", FilmFormat::kApng},         {"mp4", FilmFormat::kMp4},
+    {"webm", FilmFormat::kWebm},         {"binstl", SolidFormat::kStl},
     {"asciistl", SolidFormat::kAsciiStl}};
 
 /// Those that are endings, too.

@@ -1,4 +1,4 @@
-// What a file can be that is written: a picture, the solid, or a drawing.
+// What a file can be that is written: a picture, the solid, a drawing, or a film.
 #pragma once
 
 #include <string_view>
@@ -10,7 +10,7 @@
 
 namespace whittle {
 
-using ExportFormat = std::variant<FileFormat, SolidFormat, DrawingFormat>;
+using ExportFormat = std::variant<FileFormat, SolidFormat, DrawingFormat, FilmFormat>;
 
 /// By OpenSCAD's names for --export-format.
 Choices<ExportFormat> export_format_choices();

@@ -1,6 +1,7 @@
 #include "whittle/line_output.h"
 
 #include <string_view>
+#include <utility>
 
 #include "lines/write_line_svg.h"
 #include "whittle/renderer.h"
@@ -8,14 +9,35 @@
 namespace whittle {
 namespace {
 
-/// The camera that a picture would have.
-Result<Camera> camera_of(const Model& model, const ViewOptions& view, int threads) {
+/// Who knows the solid's box, and cameras that frame it.
+Result<Renderer> framer_of(const Model& model, int threads) {
   RendererSettings settings;
   settings.backend = Backend::kCpu;
   settings.threads = threads;
-  Result<Renderer> renderer = Renderer::make(model, settings);
-  if (!renderer) return renderer.error();
-  return renderer->camera(view);
+  return Renderer::make(model, settings);
+}
+
+Error refusal(const Model& model, const std::string& why) {
+  return {ErrorKind::kInput, model.file + ": error: " + why};
+}
+
+/// The drawing, if there is anything in it.
+Result<LineDrawing> drawing_of(const Model& model, const Camera& camera,
+                               const LineSettings& settings, int threads, LineStats& stats,
+                               const LineStage& stage, const Progress& progress) {
+  Result<LineDrawing> drawing =
+      draw_lines(model, camera, settings, threads, &stats, stage, progress);
+  if (!drawing) {
+    return drawing.error().kind == ErrorKind::kInput ? refusal(model, drawing.error().message)
+                                                     : drawing.error();
+  }
+  if (stats.facets == 0) return refusal(model, "the solid is empty");
+  return drawing;
+}
+
+/// Folders are nobody's business.
+std::string_view title_of(const Model& model) {
+  return std::string_view(model.file).substr(model.file.rfind('/') + 1);
 }
 
 }  // namespace
@@ -23,23 +45,40 @@ Result<Camera> camera_of(const Model& model, const ViewOptions& view, int thread
 Result<std::string> line_svg_of(const Model& model, const ViewOptions& view,
                                 const LineSettings& settings, int threads, LineStats* stats,
                                 const LineStage& stage, const Progress& progress) {
-  const auto refused = [&](const std::string& why) {
-    return Error{ErrorKind::kInput, model.file + ": error: " + why};
-  };
-  if (model.drawing) return refused("is flat; a line drawing shows a solid");
-  const Result<Camera> camera = camera_of(model, view, threads);
-  if (!camera) return camera.error();
+  if (model.drawing) return refusal(model, "is flat; a line drawing shows a solid");
+  Result<Renderer> framer = framer_of(model, threads);
+  if (!framer) return framer.error();
   LineStats made;
-  LineStats& s = stats != nullptr ? *stats : made;
-  const Result<LineDrawing> drawing =
-      draw_lines(model, *camera, settings, threads, &s, stage, progress);
-  if (!drawing) {
-    return drawing.error().kind == ErrorKind::kInput ? refused(drawing.error().message)
-                                                     : drawing.error();
+  const Result<LineDrawing> drawing = drawing_of(model, framer->camera(view), settings, threads,
+                                                 stats != nullptr ? *stats : made, stage, progress);
+  if (!drawing) return drawing.error();
+  return write_line_svg(*drawing, title_of(model));
+}
+
+Result<std::string> sheet_svg_of(const Model& model, const SheetSettings& sheet,
+                                 const LineSettings& settings, int threads, const LineStage& stage,
+                                 const Progress& progress) {
+  if (model.drawing) return refusal(model, "is flat; a sheet shows a solid");
+  Result<Renderer> framer = framer_of(model, threads);
+  if (!framer) return framer.error();
+  const Box box = framer->framed_box();
+  if (box.is_empty()) return refusal(model, "the solid is empty");
+  if (!box.is_finite()) return refusal(model, "the solid has no end");
+  const Sheet laid_out = sheet_to_scale(sheet, box, settings.scale);
+  LineDrawing all{.is_to_scale = true, .corner = {}, .size = laid_out.size, .paths = {}};
+  for (const SheetView& view : laid_out.views) {
+    LineStats stats;
+    Result<LineDrawing> drawing = drawing_of(model, sheet_camera(view.view, box, 1, 1, 1), settings,
+                                             threads, stats, stage, progress);
+    if (!drawing) return drawing.error();
+    for (DrawnPath& path : drawing->paths) {
+      for (Vec2& point : path.points) point = point + view.middle();
+      all.paths.push_back(std::move(path));
+    }
   }
-  if (s.facets == 0) return refused("the solid is empty");
-  // Folders are nobody's business.
-  return write_line_svg(*drawing, std::string_view(model.file).substr(model.file.rfind('/') + 1));
+  for (const Stroke& line : laid_out.lines)
+    all.paths.push_back({LineKind::kDimension, false, line});
+  return write_line_svg(all, title_of(model));
 }
 
 }  // namespace whittle

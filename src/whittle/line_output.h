@@ -6,6 +6,7 @@
 #include "base/result.h"
 #include "lines/line_drawing.h"
 #include "model/model.h"
+#include "sheet/sheet.h"
 #include "trace/view.h"
 
 namespace whittle {
@@ -17,5 +18,11 @@ Result<std::string> line_svg_of(const Model& model, const ViewOptions& view,
                                 const LineSettings& settings, int threads,
                                 LineStats* stats = nullptr, const LineStage& stage = {},
                                 const Progress& progress = {});
+
+/// A sheet of drawings to scale, at settings.scale, of views that have the solid's box in their
+/// middles. Errors as above.
+Result<std::string> sheet_svg_of(const Model& model, const SheetSettings& sheet,
+                                 const LineSettings& settings, int threads,
+                                 const LineStage& stage = {}, const Progress& progress = {});
 
 }  // namespace whittle

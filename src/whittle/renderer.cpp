@@ -90,6 +90,10 @@ struct Renderer::State {
   /// What is shown beside the solid; empty if nothing is.
   Box box_beside();
   const Layers& all_layers();
+  /// What is framed where view-all is on: the solid, and what is shown beside it.
+  Box framed_box();
+  /// How far that reaches.
+  Reach framed_reach();
   /// For as many rays as the camera has, or more if it looks closely at a part.
   Status make_tracer(const Camera& camera);
   Status make_tracer(const Camera& camera, double rays);
@@ -188,29 +192,57 @@ Box Renderer::State::box_beside() {
   return box;
 }
 
-Camera Renderer::camera(const ViewOptions& options, GimbalView* view) {
-  State& s = *state_;
-  const FileView& file = s.model.view;
-  const Stopwatch watch;
-  const bool frames = frames_the_solid(options, file);
-  const Box beside = frames ? s.box_beside() : Box{};
-  const Box framed = frames ? unite(s.solid_box(), beside) : Box{};
+Box Renderer::State::framed_box() {
+  return unite(solid_box(), box_beside());
+}
+
+Reach Renderer::State::framed_reach() {
+  const Box beside = box_beside(), framed = unite(solid_box(), beside);
   // How far a solid without end reaches nobody knows, and what a drawing shows has no height.
-  const Reach reach = [&](const Directions& directions) {
-    if (!s.has_end || s.model.drawing) return box_reach(framed, directions);
+  const bool is_known = has_end && !model.drawing;
+  return [this, beside, framed, is_known](const Directions& directions) {
+    if (!is_known) return box_reach(framed, directions);
     std::array<double, 4> found;
-    std::ranges::copy(solid_reach(s.scene, s.solid_box(), directions, s.settings.threads),
-                      found.begin());
+    std::ranges::copy(solid_reach(scene, *solid, directions, settings.threads), found.begin());
     if (!beside.is_empty()) {
       const std::array<double, 4> more = box_reach(beside, directions);
       for (size_t i = 0; i < found.size(); ++i) found[i] = std::max(found[i], more[i]);
     }
     return found;
   };
-  const FramedView framing = frame_view(options, file, framed, reach);
+}
+
+Camera Renderer::camera(const ViewOptions& options, GimbalView* view) {
+  State& s = *state_;
+  const FileView& file = s.model.view;
+  const Stopwatch watch;
+  const bool frames = frames_the_solid(options, file);
+  const Box framed = frames ? s.framed_box() : Box{};
+  const FramedView framing = frame_view(options, file, framed, frames ? s.framed_reach() : Reach());
   s.times.frame = watch.milliseconds();
   if (view) *view = framing.view;
   return framing.camera;
+}
+
+Turntable Renderer::turntable(const ViewOptions& options, GimbalView* view) {
+  State& s = *state_;
+  const FileView& file = s.model.view;
+  const Stopwatch watch;
+  const bool frames = frames_the_solid(options, file);
+  const Box framed = frames ? s.framed_box() : Box{};
+  // What stands where without the solid.
+  const Vec3 looked_at = frame_view(options, file, Box{}, Reach()).view.target;
+  const bool fits = frames && !framed.is_empty() && framed.is_finite();
+  const Vec3 axis = fits && centers_the_solid(options, file) ? framed.center() : looked_at;
+  const Reach reach = fits ? swept_reach(s.framed_reach(), axis) : Reach();
+  const FramedView framing = frame_view(options, file, framed, reach);
+  s.times.frame = watch.milliseconds();
+  if (view) *view = framing.view;
+  return {framing.camera, axis};
+}
+
+Box Renderer::framed_box() {
+  return state_->framed_box();
 }
 
 Tracer& Renderer::State::seen() {

@@ -15,6 +15,7 @@
 #include "subdivide/subdivide.h"
 #include "trace/cpu/cpu.h"
 #include "trace/tracer.h"
+#include "trace/turntable.h"
 #include "trace/view.h"
 #include "trace/vulkan/raster.h"
 #include "whittle/choices.h"
@@ -97,6 +98,11 @@ class Renderer {
   /// view-all is on. Of a solid that has no end, what bounds() says is framed. `view` is told
   /// the same in OpenSCAD's words.
   Camera camera(const ViewOptions& options, GimbalView* view = nullptr);
+  /// The same for a camera that then goes round the point looked at. Where view-all is on, the
+  /// solid fits the picture all the way round.
+  Turntable turntable(const ViewOptions& options, GimbalView* view = nullptr);
+  /// What is framed where view-all is on: the solid's box, in world coordinates.
+  Box framed_box();
 
   /// Makes the cells, as far as they are not left to the rays, and the tracer. The camera says how
   /// many rays there will be, and with a pixel threshold which cells are small. The oracle has no

@@ -79,12 +79,12 @@ TEST_F(DropIn, OtherFormatsAreRefused) {
   expect_refused({"part.csg", "-o", "x.wrl"},
                  "'x.wrl' asks for .wrl, which whittle does not write; it writes .png, .exr, .stl, "
                  ".off, .obj, "
-                 ".3mf, .amf, .svg or .dxf\n");
+                 ".3mf, .amf, .svg, .dxf, .gif, .apng, .mp4 or .webm\n");
   expect_refused({"part.csg", "-o", "x.png", "--export-format", "nef3"},
                  "--export-format: 'nef3' asks for .nef3, which whittle does not write");
   expect_refused({"part.csg", "-o", "x.png", "--export-format", "nonsense"},
                  "--export-format: unknown format 'nonsense'; there are: png, exr, stl, off, obj, "
-                 "3mf, amf, svg, dxf, binstl, asciistl\n");
+                 "3mf, amf, svg, dxf, gif, apng, mp4, webm, binstl, asciistl\n");
   expect_refused({"part.csg", "-s", "x.stl"}, "-s: the ending of -o FILE says what is written");
   expect_refused({"part.csg", "-x", "x.dxf"}, "-x: the ending of -o FILE says what is written");
 }

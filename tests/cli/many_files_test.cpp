@@ -137,12 +137,14 @@ TEST_F(ManyFiles, NoOutputTakesThePlaceOfAnInput) {
 
 TEST_F(ManyFiles, TemplatesHaveTheirWordsAndNoOthers) {
   expect_refused({"ball.csg", "-o", "{nom}.png"},
-                 "-o '{nom}.png': there is no {nom}; there are {name} and, with --animate, {n}, "
-                 "and {{ is a brace");
+                 "-o '{nom}.png': there is no {nom}; there are {name}, with --animate or "
+                 "--turntable {n}, with --from or --views {view}, and {{ is a brace");
   expect_refused({"ball.csg", "-o", "{n}.png"},
-                 "-o '{n}.png': {n} is the number of a frame, and there is no --animate");
+                 "-o '{n}.png': {n} is the number of a frame, and here is no frame of --animate "
+                 "or --turntable");
   expect_refused({"ball.csg", "-o", "{view}.png"},
-                 "-o '{view}.png': {view} is for several views, and there is one");
+                 "-o '{view}.png': {view} is the name of a view, and here is none of --from or "
+                 "--views");
   expect_refused({"ball.csg", "-o", "{name.png"},
                  "-o '{name.png': a brace is not closed; {{ is one that stands for itself");
   write("a{n}.b.csg", "cube(1);\n");

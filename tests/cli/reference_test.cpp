@@ -98,8 +98,8 @@ TEST_F(Reference, WhatCannotBeComparedIsRefused) {
          "whittle: -o ref.png is the file that is read, ref.png, which would be lost");
   expect({"--reference", "none.png"}, 1, "none.png: cannot read: No such file or directory");
   expect({"--reference", "{nome}.png"}, 2,
-         "whittle: --reference '{nome}.png': there is no {nome}; there are {name} and, with "
-         "--animate, {n}, and {{ is a brace");
+         "whittle: --reference '{nome}.png': there is no {nome}; there are {name}, with "
+         "--animate or --turntable {n}, with --from or --views {view}, and {{ is a brace");
 }
 
 }  // namespace
