@@ -5,13 +5,10 @@
 // (0, 2)-sequence (Sobol 1967), so 4^k in a row of them are spread evenly, too.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <vector>
 
 #include "base/vec.h"
 
@@ -67,42 +64,5 @@ struct Axes {
     return normalize(x * disc.x + y * disc.y + z * up);
   }
 };
-
-/// The places of a lattice, of `columns` by `rows`, that look round; in an order in which rays walk
-/// together that start near one another and go nearly the same way.
-template <class Looks, class DirectionAt>
-std::vector<uint32_t> in_walking_order(size_t columns, size_t rows, const Looks& looks,
-                                       const DirectionAt& direction_at) {
-  constexpr size_t kPatch = 32;
-  std::array<uint32_t, kBlockDirections> rank;
-  std::array<uint32_t, kBlockDirections> by_way;
-  for (uint32_t i = 0; i < kBlockDirections; ++i) by_way[i] = i;
-  // Quarters of the disc, and quarters of those.
-  const auto way = [](uint32_t i) {
-    const Vec2 disc = on_disc(spread_point(i, kBlockDirections));
-    const auto x = uint32_t((disc.x + 1) * 8), y = uint32_t((disc.y + 1) * 8);
-    uint32_t z_order = 0;
-    for (uint32_t bit = 0; bit < 4; ++bit)
-      z_order |= (x >> bit & 1) << (2 * bit) | (y >> bit & 1) << (2 * bit + 1);
-    return z_order;
-  };
-  std::ranges::stable_sort(by_way, {}, way);
-  for (uint32_t i = 0; i < kBlockDirections; ++i) rank[by_way[i]] = i;
-
-  std::vector<uint32_t> places;
-  std::array<std::vector<uint32_t>, kBlockDirections> patch;
-  for (size_t y0 = 0; y0 < rows; y0 += kPatch) {
-    for (size_t x0 = 0; x0 < columns; x0 += kPatch) {
-      for (size_t y = y0; y < std::min(y0 + kPatch, rows); ++y)
-        for (size_t x = x0; x < std::min(x0 + kPatch, columns); ++x)
-          if (looks(x, y)) patch[rank[direction_at(x, y)]].push_back(uint32_t(y * columns + x));
-      for (std::vector<uint32_t>& same : patch) {
-        places.insert(places.end(), same.begin(), same.end());
-        same.clear();
-      }
-    }
-  }
-  return places;
-}
 
 }  // namespace whittle

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <set>
-
 namespace whittle {
 namespace {
 
@@ -60,16 +58,6 @@ RC_GTEST_PROP(Directions, AxesAreUnitAndAtRightAngles, ()) {
   const Axes axes(normalize(v));
   for (const Vec3 axis : {axes.x, axes.y, axes.z}) RC_ASSERT(std::fabs(length(axis) - 1) < 1e-12);
   RC_ASSERT(length(cross(axes.x, axes.y) - axes.z) < 1e-12);
-}
-
-TEST(Directions, WalkingOrderHoldsThosePlacesThatLookOnceEach) {
-  const auto looks = [](size_t x, size_t y) { return (x + 2 * y) % 3 != 0; };
-  const std::vector<uint32_t> order = in_walking_order(70, 45, looks, direction_of_pixel);
-  const std::set<uint32_t> places(order.begin(), order.end());
-  EXPECT_EQ(order.size(), places.size());
-  for (size_t y = 0; y < 45; ++y)
-    for (size_t x = 0; x < 70; ++x)
-      EXPECT_EQ(places.count(uint32_t(y * 70 + x)), size_t(looks(x, y)));
 }
 
 }  // namespace

@@ -3,16 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <span>
 
+#include "image/block_sums.h"
 #include "image/directions.h"
+#include "image/edge_lanes.h"
 #include "image/occlusion.h"
+#include "image/ordered_cast.h"
 
 namespace whittle {
 namespace {
 
-constexpr size_t kStep = 3;  ///< pixels between places
-constexpr size_t kRaysPerBatch = size_t(1) << 17, kPlacesPerTask = 1024, kRowsPerTask = 8;
+/// Places along the shorter side of a picture, about: shadows are as soft in large pictures as in
+/// small ones.
+constexpr size_t kPlaces = 200;
+constexpr size_t kRowsPerTask = 8;
+constexpr size_t kAroundOutline = 4;  ///< places, both ways
 /// The ground sees as far as this share of the solid's diagonal.
 constexpr double kReach = 0.6;
 /// The lamp's radius over its distance.
@@ -38,35 +43,18 @@ bool meets(const Ray& ray, const Box& box) {
   return near <= far;
 }
 
-/// A lattice of numbers.
-struct Lattice {
-  size_t columns = 0, rows = 0;
-  std::vector<float> numbers;
-};
-
-/// Replaces all numbers by their sums over blocks, along rows or along columns.
-void add_blocks(Lattice& sums, Lattice& counts, bool along_rows, size_t block,
-                const Workers& workers) {
-  const size_t stride = along_rows ? 1 : sums.columns;
-  const size_t length = along_rows ? sums.columns : sums.rows;
-  const size_t across = along_rows ? sums.columns : 1;
-  workers.for_parts(along_rows ? sums.rows : sums.columns, kRowsPerTask,
-                    [&](size_t first, size_t last, size_t) {
-                      std::vector<float> row(length);
-                      for (size_t line = first; line < last; ++line) {
-                        for (Lattice* lattice : {&sums, &counts}) {
-                          float* at = &lattice->numbers[line * across];
-                          for (size_t i = 0; i < length; ++i) row[i] = at[i * stride];
-                          for (size_t i = 0; i < length; ++i) {
-                            float sum = 0;
-                            const size_t from = i - std::min(i, block / 2);
-                            const size_t to = std::min(length, i + block - block / 2);
-                            for (size_t k = from; k < to; ++k) sum += row[k];
-                            at[i * stride] = sum;
-                          }
-                        }
-                      }
-                    });
+/// Which later neighbours of a lattice's places are another kind of place.
+std::vector<uint8_t> changes_in(const std::vector<uint8_t>& kinds, size_t columns,
+                                const Workers& workers) {
+  const size_t rows = kinds.size() / columns;
+  std::vector<uint8_t> changes(kinds.size());
+  workers.for_parts(rows, kRowsPerTask, [&](size_t first, size_t last, size_t) {
+    for (size_t at = first * columns; at < last * columns; ++at) {
+      if (at % columns + 1 < columns && kinds[at] != kinds[at + 1]) changes[at] |= kRight;
+      if (at + columns < kinds.size() && kinds[at] != kinds[at + columns]) changes[at] |= kBelow;
+    }
+  });
+  return changes;
 }
 
 }  // namespace
@@ -76,8 +64,9 @@ Ground::Ground(Tracer& tracer, const Camera& camera, const Frame& frame,
   const Box& solid = settings.solid;
   if (solid.is_empty() || !solid.is_finite()) return;
   const size_t width = size_t(frame.width), height = size_t(frame.height);
-  columns_ = (width + kStep - 1) / kStep;
-  rows_ = (height + kStep - 1) / kStep;
+  step_ = std::max<size_t>(1, (std::min(width, height) + kPlaces / 2) / kPlaces);
+  columns_ = (width + step_ - 1) / step_;
+  rows_ = (height + step_ - 1) / step_;
   const Axes up({0, 0, 1});
   const Vec3 key = lights(camera, settings).front().at;
   // A lamp that stands low would draw shadows without end.
@@ -88,7 +77,7 @@ Ground::Ground(Tracer& tracer, const Camera& camera, const Frame& frame,
 
   // The ground that is seen through a place of the lattice, the middle of a pixel.
   const auto ground_at = [&](size_t i, size_t j) -> std::optional<Vec3> {
-    const size_t x = kStep * i, y = kStep * j;
+    const size_t x = step_ * i, y = step_ * j;
     if (frame.hits[y * width + x].hit()) return std::nullopt;
     const Ray ray = camera.ray(double(x) + 0.5, double(y) + 0.5);
     if (!(ray.direction.z < 0)) return std::nullopt;
@@ -102,59 +91,65 @@ Ground::Ground(Tracer& tracer, const Camera& camera, const Frame& frame,
     return normalize(lamp.z + (lamp.x * disc.x + lamp.y * disc.y) * kLampRadius);
   };
 
-  Lattice counts{columns_, rows_, std::vector<float>(columns_ * rows_)}, sums = counts;
+  const size_t count = columns_ * rows_;
   const auto for_places = [&](const auto& body) {
     workers.for_parts(rows_, kRowsPerTask, [&](size_t first, size_t last, size_t) {
       for (size_t j = first; j < last; ++j)
         for (size_t i = 0; i < columns_; ++i) body(j * columns_ + i, i, j);
     });
   };
-  for_places([&](size_t at, size_t i, size_t j) { counts.numbers[at] = ground_at(i, j) ? 1 : 0; });
+  std::vector<uint8_t> is_ground(count);
+  for_places([&](size_t at, size_t i, size_t j) { is_ground[at] = ground_at(i, j) ? 1 : 0; });
+  std::vector<uint32_t> numbers(is_ground.begin(), is_ground.end());
   bool is_shaded = false;
+  OrderedCast cast(tracer, columns_, workers);
   const auto look = [&](const auto& direction, double reach, double share) {
     // Those that have the solid's box in their way.
-    std::vector<uint8_t> may_meet(columns_ * rows_);
+    std::vector<uint8_t> may_meet(count);
     for_places([&](size_t at, size_t i, size_t j) {
-      if (counts.numbers[at] != 0) may_meet[at] = meets({*ground_at(i, j), direction(i, j)}, solid);
+      if (is_ground[at] != 0) may_meet[at] = meets({*ground_at(i, j), direction(i, j)}, solid);
     });
-    const std::vector<uint32_t> places = in_walking_order(
-        columns_, rows_, [&](size_t i, size_t j) { return may_meet[j * columns_ + i] != 0; },
-        direction_of_pixel);
+    const std::vector<uint32_t> places = places_in_patches(
+        columns_, rows_, [&](size_t i, size_t j) { return may_meet[j * columns_ + i] != 0; });
     is_shaded |= !places.empty();
-    std::vector<Ray> rays;
-    std::vector<Hit> found;
-    for (size_t first = 0; first < places.size(); first += kRaysPerBatch) {
-      if (stop.stop_requested()) return;
-      const auto batch =
-          std::span(places).subspan(first, std::min(kRaysPerBatch, places.size() - first));
-      rays.resize(batch.size()), found.resize(batch.size());
-      workers.for_parts(batch.size(), kPlacesPerTask, [&](size_t begin, size_t end, size_t) {
-        for (size_t k = begin; k < end; ++k) {
-          const size_t i = batch[k] % columns_, j = batch[k] / columns_;
-          rays[k] = {*ground_at(i, j), direction(i, j)};
-        }
-      });
-      tracer.cast(rays, found);
-      for (size_t k = 0; k < batch.size(); ++k)
-        sums.numbers[batch[k]] += float(share * hidden_share(found[k], reach));
-    }
+    const auto ray_of = [&](size_t place) {
+      const size_t i = place % columns_, j = place / columns_;
+      return Ray{*ground_at(i, j), direction(i, j), 0, reach};
+    };
+    cast(places, stop, ray_of, [&](uint32_t place, const Hit& hit) {
+      numbers[place] += BlockSums::packed(share * hidden_share(hit, reach), 0);
+    });
   };
   look(to_sky, kReach * solid.diagonal(), kSkyShare);
   look(to_lamp, kInfinity, kLampShare);
   if (!is_shaded) return;
-  for (const size_t block : {kDirectionBlock, kDirectionBlock / 2})
-    for (const bool along_rows : {true, false})
-      add_blocks(sums, counts, along_rows, block, workers);
-  shadows_ = std::move(sums.numbers);
-  for (size_t i = 0; i < shadows_.size(); ++i)
-    shadows_[i] = counts.numbers[i] > 0 ? shadows_[i] / counts.numbers[i] : 0;
+  // A mean without some of the directions would be lighter or darker than its neighbours; where the
+  // solid hides the ground it is over more on the other side.
+  const std::vector<uint8_t> changes = changes_in(is_ground, columns_, workers);
+  const BlockSums block_sums(columns_, rows_, changes, kDirectionBlock, workers);
+  block_sums.add_up(numbers);
+  for_places([&](size_t at, size_t, size_t) {
+    numbers[at] = is_ground[at] != 0 ? BlockSums::packed(BlockSums::mean(numbers[at], 0), 1) : 0;
+  });
+  block_sums.add_up(numbers);
+  // Where the solid hides the ground, what is seen of it around: between places at its outline.
+  std::vector<uint32_t> around(count);
+  for_places([&](size_t at, size_t, size_t) {
+    around[at] = is_ground[at] != 0 ? BlockSums::packed(BlockSums::mean(numbers[at], 0), 1) : 0;
+  });
+  const std::vector<uint8_t> no_changes(count);
+  BlockSums(columns_, rows_, no_changes, kAroundOutline, workers).add_up(around);
+  shadows_.resize(count);
+  for_places([&](size_t at, size_t, size_t) {
+    shadows_[at] = float(BlockSums::mean(is_ground[at] != 0 ? numbers[at] : around[at], 0));
+  });
 }
 
 float Ground::shadow(float px, float py) const {
   if (shadows_.empty()) return 0;
   // Between the four places around.
-  const auto split = [](float p, size_t count, size_t& first, size_t& second) {
-    const float at = std::clamp((p - 0.5f) / float(kStep), 0.0f, float(count - 1));
+  const auto split = [this](float p, size_t count, size_t& first, size_t& second) {
+    const float at = std::clamp((p - 0.5f) / float(step_), 0.0f, float(count - 1));
     first = size_t(at);
     second = std::min(first + 1, count - 1);
     return at - float(first);

@@ -1,9 +1,10 @@
 // The soft shadow of what stands on the ground: the plane through the solid's lowest point.
 //
-// The ground itself is not seen. From where it is, through every third pixel of every third row,
-// one ray goes to the sky and one to a large lamp, in directions that change from one to the next
-// as those of occlusion.h. The mean over 8 x 8 of them, and over 4 x 4 of those means, is the
-// shadow.
+// The ground itself is not seen. From where it is, through a lattice of pixels (every third one of
+// every third row at 800 x 600), one ray goes to the sky and one to a large lamp, in directions
+// that change from one to the next as those of occlusion.h. The mean over 8 x 8 of them, and over 8
+// x 8 of those means, is the shadow; where the solid hides the ground nearby, over as many on the
+// other side.
 #pragma once
 
 #include <cstddef>
@@ -31,6 +32,7 @@ class Ground {
   float shadow(float px, float py) const;
 
  private:
+  size_t step_ = 1;                ///< pixels from one place of the lattice to the next
   size_t columns_ = 0, rows_ = 0;  ///< of the lattice; 0: there is no shadow
   std::vector<float> shadows_;     ///< of its places
 };

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <vector>
 
 #include "image/scene_for_test.h"
@@ -71,6 +72,29 @@ TEST(Occlusion, AFloorBeforeAWall) {
   scene.add_wall(2);
   const auto known = [](Vec3 p, uint32_t id) {
     return id == 1 && p.x > 0.2 ? 1 - (1 - p.x / std::hypot(p.x, 2)) / 2 : std::nan("");
+  };
+  EXPECT_LT(worst_error(scene, camera_from_above(800, 8), kGood, known), 0.06);
+  EXPECT_LT(worst_error(scene, camera_from_above(400, 8), kBest, known), 0.015);
+}
+
+TEST(Occlusion, ACornerOfABox) {
+  // A floor between two walls that meet at the origin, 2 high and long without end.
+  SceneForTest scene;
+  scene.add_plane({0, 0, 1}, 0);
+  scene.add_box({{-1, -1, 0}, {0, 1e6, 2}});
+  scene.add_box({{-1, -1, 0}, {1e6, 0, 2}});
+  // The form factor of a wall at distance d, which ends `beside` away on one side: two rectangles
+  // that are square to what sees them (Howell, A catalog of radiation heat transfer configuration
+  // factors, B-4).
+  const auto hidden_by_wall = [](double d, double beside) {
+    const double r = std::hypot(d, 2), right = std::numbers::pi / 2;
+    return (std::atan(beside / d) + right - d / r * (std::atan(beside / r) + right)) /
+           (2 * std::numbers::pi);
+  };
+  const auto known = [&](Vec3 p, uint32_t id) {
+    return id == 1 && p.x > 0.3 && p.y > 0.3
+               ? 1 - hidden_by_wall(p.x, p.y) - hidden_by_wall(p.y, p.x)
+               : std::nan("");
   };
   EXPECT_LT(worst_error(scene, camera_from_above(800, 8), kGood, known), 0.06);
   EXPECT_LT(worst_error(scene, camera_from_above(400, 8), kBest, known), 0.015);

@@ -122,6 +122,28 @@ TEST(Studio, WithoutBackgroundTheGroundsShadowIsTranslucentBlack) {
   EXPECT_EQ(bare.at(60, 85)[3], 0);
 }
 
+TEST(Studio, TheGroundsShadowIsEvenAlongAnEvenSide) {
+  // Of a long wall, seen from above: near its middle nothing changes along it.
+  SceneForTest scene;
+  scene.add_box({{-9, -1, 0}, {9, 1, 2}});
+  const Camera camera = camera_from_above(400, 8);
+  const Frame frame = scene.render(camera);
+  ShadeSettings settings = studio();
+  settings.solid = {{-9, -1, 0}, {9, 1, 2}};
+  settings.background = false;
+  const Picture picture = shade_studio(scene, camera, frame, {}, settings, 1, kStudioThreads);
+  for (const int y : {50, 100, 140, 148}) {
+    int least = 255, most = 0;
+    for (int x = 150; x < 250; ++x) {
+      ASSERT_FALSE(frame.at(x, y).hit());
+      least = std::min<int>(least, picture.at(x, y)[3]);
+      most = std::max<int>(most, picture.at(x, y)[3]);
+    }
+    EXPECT_LE(most - least, 3) << y;
+  }
+  EXPECT_GT(picture.at(200, 148)[3], 20);
+}
+
 TEST(Studio, AnEyeBelowTheGroundSeesNone) {
   SceneForTest scene;
   scene.add_box(kCube);

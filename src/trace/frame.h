@@ -16,6 +16,8 @@ struct Ray {
   Vec3 origin;
   Vec3 direction;
   double t_min = 0;
+  /// Nobody asks what is farther: a hit there may be told or not.
+  double t_max = std::numeric_limits<double>::infinity();
 };
 
 /// The first point with t > t_min at which the ray enters or leaves the solid.

@@ -368,6 +368,42 @@ TEST(Cpu, NoCellIsRefinedThatNoRayMeets) {
   EXPECT_GT(refined, 100u);
 }
 
+TEST(Cpu, RaysThatEndLeaveFarCellsAlone) {
+  std::string text = "union() {";
+  for (int i = 0; i < 600; ++i)
+    text += "translate([" + std::to_string(i * 37 % 4001 * 0.1) + "," +
+            std::to_string(i * 53 % 397 * 0.1) + "," + std::to_string(i * 71 % 389 * 0.1) +
+            "]) sphere(1.1);";
+  const Model model = model_of(text + "}");
+  const Scene scene = *lower(model);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 200; ++i)
+    rays.push_back({{-5, 10 + i * 0.1, 20}, normalize(Vec3{1, 0.01 * (i % 7), 0.01 * (i % 9)})});
+  const auto cast = [&](std::vector<Hit>& hits) {
+    const CellTree cells = open_cells(scene, {});
+    hits.resize(rays.size());
+    make_cpu_tracer(scene, cells, 1)->cast(rays, hits);
+    return statistics_of(cells).refined;
+  };
+  std::vector<Hit> all, near;
+  const uint64_t refined_for_all = cast(all);
+  constexpr double kEnd = 60;
+  for (Ray& ray : rays) ray.t_max = kEnd;
+  EXPECT_LT(cast(near) * 2, refined_for_all);
+  size_t within = 0;
+  for (size_t i = 0; i < rays.size(); ++i) {
+    if (!(all[i].distance < kEnd)) {
+      EXPECT_FALSE(near[i].distance < kEnd);
+      continue;
+    }
+    ++within;
+    EXPECT_EQ(near[i].distance, all[i].distance);
+    EXPECT_EQ(near[i].id, all[i].id);
+  }
+  EXPECT_GT(within, 20u);
+  EXPECT_LT(within, rays.size() - 20);
+}
+
 TEST(Cpu, ARayMayRunInAPlaneFromItsEyeOn) {
   Traced half("halfspace(n = [0, 0, 1], d = 2);");
   EXPECT_FALSE(half.hit({3, 0, 2}, {4, 0, 2}).hit()) << "as far as the region reaches";

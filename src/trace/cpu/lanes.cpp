@@ -123,7 +123,7 @@ class Walk {
       b.low_inverse[axis] = side_[axis] ? -hi : li;
       b.high_inverse[axis] = side_[axis] ? -li : hi;
     }
-    b.t0 = least(first), b.t1 = most(last);
+    b.t0 = least(first), b.t1 = std::min(most(last), tile_.end);
     return b;
   }
 

@@ -8,6 +8,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 #include <vector>
 
@@ -85,7 +86,7 @@ class LeavesInLanes {
   }
   template <Says kSays>
   uint32_t solve_in_lanes(CellKind kind, const Leaf& leaf, size_t visitor);
-  static uint32_t run_program(std::span<const Step> steps, Word state);
+  static uint32_t run_program(std::span<const Step> steps, const uint8_t* inside, uint32_t lanes);
   uint32_t find_owners(const Leaf& leaf, size_t packet, uint32_t lanes, Word state,
                        uint32_t literal);
   void solve_kept_lanes(CellKind kind, const Leaf& leaf, size_t visitor);
@@ -313,28 +314,29 @@ inline void LeavesInLanes::find_roots(size_t literals) {
   }
 }
 
-/// The lanes for which a program says yes, in the states given. All lanes take each step together:
-/// where they go from there stands behind it.
-HWY_INLINE uint32_t LeavesInLanes::run_program(std::span<const Step> steps, Word state) {
-  constexpr uint8_t kAll = 0xff;
+/// Those of the lanes given for which a program says yes. `inside`: by literal, the lanes that are
+/// inside its half-space. All lanes take each step together: where they go from there stands behind
+/// it.
+HWY_INLINE uint32_t LeavesInLanes::run_program(std::span<const Step> steps, const uint8_t* inside,
+                                               uint32_t lanes) {
   // By step, the lanes that come to it; then those that come to the answers.
-  uint8_t lanes_at[kMostSteps + 2] = {};
+  uint8_t lanes_at[kMostSteps + 2];
+  std::memset(lanes_at, 0, steps.size());
+  uint8_t* const answers = lanes_at + kMostSteps;
+  answers[0] = answers[1] = 0;
   const auto at = [&](uint32_t step) -> uint8_t& {
     return lanes_at[step < kAnswerFalse ? step : kMostSteps + (step - kAnswerFalse)];
   };
-  lanes_at[0] = kAll;
+  lanes_at[0] = uint8_t(lanes);
   for (size_t i = 0; i < steps.size(); ++i) {
-    const uint8_t here = lanes_at[i];
+    const uint32_t here = lanes_at[i];
     if (here == 0) continue;
     const Step& step = steps[i];
-    const Word bit = hn::Set(Words(), uint64_t(1) << (step.literal >> 1));
-    const uint32_t inside =
-        bits(hn::RebindMask(D(), hn::Ne(hn::And(state, bit), hn::Zero(Words()))));
-    const auto holds = uint8_t(step.literal & 1 ? ~inside : inside);
+    const uint32_t holds = inside[step.literal >> 1] ^ (0u - (step.literal & 1));
     at(step.on_true) |= uint8_t(here & holds);
     at(step.on_false) |= uint8_t(here & ~holds);
   }
-  return at(kAnswerTrue);
+  return answers[kAnswerTrue - kAnswerFalse];
 }
 
 /// Decides what is plain. Returns the lanes that are not: where crossings coincide, where
@@ -358,13 +360,17 @@ inline uint32_t LeavesInLanes::solve_in_lanes(CellKind kind, const Leaf& leaf, s
   for (size_t i = 0; kSays == Says::kLoneState && i < literals.size(); ++i)
     lone_state |= uint64_t((literals[i].literal ^ otherwise ^ 1) & 1) << i;
   const Word lone = hn::Set(Words(), lone_state);
+  // For a program the same by literal: the lanes that are inside.
+  uint8_t inside[kKeptLiterals];
+  for (size_t i = 0; kSays == Says::kProgram && i < literals.size(); ++i)
+    inside[i] = uint8_t(signs(i, visitor).inside());
+  uint32_t open = open_[visitor];
   const auto solid_in = [&](Word s) {
-    if (kSays == Says::kProgram) return run_program(leaf.steps(), s);
+    if (kSays == Says::kProgram) return run_program(leaf.steps(), inside, open);
     if (kSays == Says::kLoneState) return bits(hn::RebindMask(D(), hn::Eq(s, lone))) ^ otherwise;
     return bits(hn::RebindMask(D(), hn::Ne(hn::And(hn::Shr(table, s), one), hn::Zero(Words()))));
   };
   const uint32_t solid = solid_in(state);
-  uint32_t open = open_[visitor];
   uint32_t delicate = open & tile_.known[packet] & (solid ^ tile_.solid[packet]);
   const Root* const roots = &roots_[first_root_[visitor]];
   double* const at = &root_t_[first_root_[visitor] * Tile::lanes()];
@@ -389,6 +395,9 @@ inline uint32_t LeavesInLanes::solve_in_lanes(CellKind kind, const Leaf& leaf, s
     delicate |= open & bits(hn::Le(second, first + set(scene_.ray_tolerance)));
     open &= ~delicate;
     state = hn::Xor(state, flip);
+    for (size_t i = 0; kSays == Says::kProgram && i < count; ++i)
+      inside[roots[i].literal] ^=
+          uint8_t(bits(hn::Load(D(), at + i * Tile::lanes()) == first) & open);
     const uint32_t after = solid_in(state), met = open & (after ^ solid);
     if (met != 0) {
       const uint32_t inside_after =

@@ -81,6 +81,7 @@ class Tile {
   size_t rays = 0, packets = 0;
   bool from_within = false;  ///< some ray starts in the region
   double width = 0;          ///< of the tile, across the rays, about where the region's middle is
+  double end = kInfinity;    ///< nobody asks what any of them meets beyond this t
   // By packet, a bit a lane.
   uint8_t meets[kMostPackets];        ///< the region
   uint8_t backward[3][kMostPackets];  ///< the direction is negative
@@ -147,10 +148,10 @@ inline void Tile::make_rays(const LaneScene& scene, const Camera& camera,
 
 inline void Tile::make_rays(const LaneScene& scene, std::span<const Ray> given) {
   begin(scene, given.size());
-  Real low[3], high[3];
+  Real low[3], high[3], last = set(-kInfinity);
   for (int axis = 0; axis < 3; ++axis) low[axis] = set(kInfinity), high[axis] = set(-kInfinity);
   for (size_t packet = 0; packet < packets; ++packet) {
-    alignas(64) double from[3][kMaxLanes], way[3][kMaxLanes], start[kMaxLanes];
+    alignas(64) double from[3][kMaxLanes], way[3][kMaxLanes], start[kMaxLanes], stop[kMaxLanes];
     for (size_t lane = 0; lane < lanes(); ++lane) {
       const Ray& ray = given[std::min(packet * lanes() + lane, rays - 1)];
       for (int axis = 0; axis < 3; ++axis) {
@@ -158,16 +159,19 @@ inline void Tile::make_rays(const LaneScene& scene, std::span<const Ray> given) 
         way[axis][lane] = ray.direction[axis];
       }
       start[lane] = ray.t_min;
+      stop[lane] = ray.t_max;
     }
     const auto loaded = [](const auto& v) {
       return L::Vec3{hn::Load(D(), v[0]), hn::Load(D(), v[1]), hn::Load(D(), v[2])};
     };
-    make_packet(scene, packet, loaded(from), loaded(way), hn::Load(D(), start));
+    const Real shift = make_packet(scene, packet, loaded(from), loaded(way), hn::Load(D(), start));
+    last = hn::Max(last, hn::Load(D(), stop) - shift);
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] = hn::Min(low[axis], axis_origin(packet, axis));
       high[axis] = hn::Max(high[axis], axis_origin(packet, axis));
     }
   }
+  end = hn::GetLane(hn::MaxOfLanes(D(), last));
   width = 0;
   for (int axis = 0; axis < 3; ++axis) {
     width = std::max(width, hn::GetLane(hn::MaxOfLanes(D(), high[axis])) -
