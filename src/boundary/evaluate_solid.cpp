@@ -125,7 +125,7 @@ class SolidEvaluation {
         stats_(stats),
         settings_(settings),
         grid_(scene.region),
-        half_spaces_(placed(scene, grid_, planes_)),
+        half_spaces_(placed(scene, grid_, workers, planes_)),
         paints_(scene, half_spaces_, settings.paints, planes_),
         geometry_(planes_),
         collector_(workers, {settings.stop, settings.progress, settings.pieces}) {}
@@ -149,10 +149,18 @@ class SolidEvaluation {
 
  private:
   static std::vector<PlacedHalfSpace> placed(const Scene& scene, const ExactGrid& grid,
-                                             PlaneTable& planes) {
+                                             const Workers& workers, PlaneTable& planes) {
+    constexpr size_t kSome = 1 << 16, kGrain = 1024;
     std::vector<PlacedHalfSpace> half_spaces(scene.half_spaces.size());
-    for (size_t i = 0; i < half_spaces.size(); ++i)
-      half_spaces[i].plane = planes.add(grid.plane(scene.half_spaces[i], half_spaces[i].inside));
+    std::vector<ExactPlane> some(std::min(kSome, half_spaces.size()));
+    for (size_t begin = 0; begin < half_spaces.size(); begin += kSome) {
+      const size_t count = std::min(kSome, half_spaces.size() - begin);
+      workers.for_parts(count, kGrain, [&](size_t first, size_t last, size_t) {
+        for (size_t i = first; i < last; ++i)
+          some[i] = grid.plane(scene.half_spaces[begin + i], half_spaces[begin + i].inside);
+      });
+      for (size_t i = 0; i < count; ++i) half_spaces[begin + i].plane = planes.add(some[i]);
+    }
     return half_spaces;
   }
 
@@ -272,7 +280,7 @@ class SolidEvaluation {
     SolidMesh mesh =
         finish(fill(outlines, geometry_, workers_), outlines, first_owners(pieces_.owners),
                first_half_spaces(half_spaces_, paints_, planes_.size()), geometry_,
-               grid_.per_unit(), scene_.origin);
+               grid_.per_unit(), scene_.origin, workers_);
     // Planes that were written to meet in one point do so but for rounding.
     constexpr double kRounding = 1e-12;
     stats_.collapsed = collapse_short_edges(mesh, kRounding * max_component(scene_.region.size()));

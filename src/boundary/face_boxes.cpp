@@ -14,12 +14,13 @@ bool meet(const Box& a, const Box& b) {
 
 void FaceBoxes::set(std::span<const Box> boxes) {
   faces_ = boxes;
-  levels_.clear();
-  for (std::span<const Box> below = boxes; below.size() > 1; below = levels_.back()) {
-    std::vector<Box> groups((below.size() + kGroup - 1) / kGroup);
+  height_ = 0;
+  for (std::span<const Box> below = boxes; below.size() > 1; below = levels_[height_++]) {
+    if (height_ == levels_.size()) levels_.emplace_back();
+    std::vector<Box>& groups = levels_[height_];
+    groups.assign((below.size() + kGroup - 1) / kGroup, {});
     for (size_t i = 0; i < below.size(); ++i)
       groups[i / kGroup] = unite(groups[i / kGroup], below[i]);
-    levels_.push_back(std::move(groups));
   }
 }
 

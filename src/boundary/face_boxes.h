@@ -21,7 +21,7 @@ class FaceBoxes {
   /// `boxes` must live on. There is at least one.
   void set(std::span<const Box> boxes);
 
-  Node root() const { return {uint32_t(levels_.size()), 0}; }
+  Node root() const { return {height_, 0}; }
   const Box& box(Node node) const {
     return node.level == 0 ? faces_[node.index] : levels_[node.level - 1][node.index];
   }
@@ -34,7 +34,8 @@ class FaceBoxes {
 
  private:
   std::span<const Box> faces_;
-  std::vector<std::vector<Box>> levels_;
+  uint32_t height_ = 0;
+  std::vector<std::vector<Box>> levels_;  ///< of groups; more than the height are left from before
   std::vector<Node> stack_;
 };
 

@@ -56,25 +56,35 @@ void FaceMaker::body(uint32_t number, std::span<const Token> formula, Pieces& ou
   }
   boxes_.set(std::span(scene_.face_boxes).subspan(unit.first_box, unit.face_count));
   const Affine local_from_own = inverse(scene_.box_frames[unit.box_frame]);
-  patches_.clear();
-  patches_.push_back({boxes_.root(), context_, truth == Truth::kTrue});
-  while (!patches_.empty()) {
-    Patch patch = std::move(patches_.back());
-    patches_.pop_back();
-    if (!patch.is_boundary) {
-      const Box box = intersect(transform(local_from_own, boxes_.box(patch.node)), around);
-      if (box.is_empty()) continue;
-      const Truth its_truth = simplify(patch.context, box, simpler_);
-      if (its_truth == Truth::kFalse) continue;
-      patch.is_boundary = its_truth == Truth::kTrue;
-      std::swap(patch.context, simpler_);
-    }
-    if (patch.node.level == 0) {
-      face(unit, patch.node.index, patch.context, patch.is_boundary, out);
+  size_t patches = 0;
+  const auto add_patch = [&](FaceBoxes::Node node, bool is_boundary) -> Formula& {
+    if (patches == patches_.size()) patches_.emplace_back();
+    patches_[patches].node = node;
+    patches_[patches].is_boundary = is_boundary;
+    return patches_[patches++].context;
+  };
+  std::swap(add_patch(boxes_.root(), truth == Truth::kTrue), context_);
+  while (patches > 0) {
+    const Patch& top = patches_[--patches];
+    const FaceBoxes::Node node = top.node;
+    const bool is_boundary = top.is_boundary;
+    if (node.level == 0) {
+      face(unit, node.index, top.context, is_boundary, out);
       continue;
     }
-    for (uint32_t i = boxes_.last_below(patch.node); i-- > boxes_.first_below(patch.node);)
-      patches_.push_back({{patch.node.level - 1, i}, patch.context, patch.is_boundary});
+    std::swap(context_, patches_[patches].context);
+    for (uint32_t i = boxes_.first_below(node); i < boxes_.last_below(node); ++i) {
+      const FaceBoxes::Node below{node.level - 1, i};
+      if (is_boundary) {
+        add_patch(below, true);
+        continue;
+      }
+      const Box box = intersect(transform(local_from_own, boxes_.box(below)), around);
+      if (box.is_empty()) continue;
+      const Truth its_truth = simplify(context_, box, simpler_);
+      if (its_truth == Truth::kFalse) continue;
+      std::swap(add_patch(below, its_truth == Truth::kTrue), simpler_);
+    }
   }
 }
 

@@ -82,9 +82,9 @@ class FaceMaker {
   struct Patch {
     FaceBoxes::Node node;
     Formula context;
-    bool is_boundary;  ///< all of it, whatever the context
+    bool is_boundary = false;  ///< all of it, whatever the context
   };
-  std::vector<Patch> patches_;
+  std::vector<Patch> patches_;  ///< a stack; what is beyond its end is left from before
   // Of a face.
   PlaneSide solid_side_ = 0;
   std::vector<uint32_t> near_;
