@@ -37,13 +37,14 @@ void say_statistics(const BoundaryStats& stats, const SolidMesh& mesh, double to
       "cells         {:>12}   leaves; {} contacts{}\n"
       "pieces        {:>12}   {} edges of faces, {} of more than two\n"
       "triangles     {:>12}   {} corners; {} edges that were but rounding are gone\n"
-      "time (ms)     {:>12.1f}   cells {:.1f}, cut {:.1f}, join {:.1f}, fill {:.1f}, write "
-      "{:.1f}\n"
+      "time (ms)     {:>12.1f}   planes {:.1f}, faces {:.1f}, cells {:.1f}, cut {:.1f}, join "
+      "{:.1f}, "
+      "fill {:.1f}, write {:.1f}\n"
       "memory        {:>12}\n",
       stats.leaves, stats.contacts, stats.asked_all_contacts ? ", all of them" : "", stats.pieces,
       stats.outline_edges, stats.shared_edges, mesh.triangles.size(), mesh.corners.size(),
-      stats.collapsed, total, stats.cells_ms, stats.cut_ms, stats.join_ms, stats.fill_ms, write,
-      describe_bytes(peak_memory_bytes())));
+      stats.collapsed, total, stats.planes_ms, stats.faces_ms, stats.cells_ms, stats.cut_ms,
+      stats.join_ms, stats.fill_ms, write, describe_bytes(peak_memory_bytes())));
 }
 
 /// Why there are true curves where facets were made.

@@ -11,8 +11,7 @@ namespace {
 
 class Collapser {
  public:
-  explicit Collapser(SolidMesh& mesh)
-      : mesh_(mesh), is_gone_(mesh.triangles.size()), around_(mesh.corners.size()) {}
+  explicit Collapser(SolidMesh& mesh) : mesh_(mesh), is_gone_(mesh.triangles.size()) {}
 
   size_t run(double length) {
     std::vector<std::array<uint32_t, 2>> edges;
@@ -22,8 +21,9 @@ class Collapser {
         if (a < b && is_short(a, b, length)) edges.push_back({a, b});
       }
     if (edges.empty()) return 0;
-    for (uint32_t t = 0; t < mesh_.triangles.size(); ++t)
-      for (const uint32_t corner : mesh_.triangles[t].corners) around_[corner].push_back(t);
+    first_.assign(mesh_.corners.size(), kNone);
+    next_.resize(3 * mesh_.triangles.size());
+    for (uint32_t place = 0; place < next_.size(); ++place) push(corner_at(place), place);
     // An edge that cannot go yet may once another one went.
     size_t gone = 0;
     while (true) {
@@ -55,10 +55,31 @@ class Collapser {
     });
   }
 
+  uint32_t& corner_at(uint32_t place) { return mesh_.triangles[place / 3].corners[place % 3]; }
+
+  void push(uint32_t corner, uint32_t place) {
+    next_[place] = first_[corner];
+    first_[corner] = place;
+  }
+
+  /// Takes a triangle off a corner's.
+  void erase(uint32_t corner, uint32_t triangle) {
+    uint32_t* at = &first_[corner];
+    while (*at / 3 != triangle) at = &next_[*at];
+    *at = next_[*at];
+  }
+
+  template <class Test>
+  bool any_around(uint32_t corner, const Test& test) const {
+    for (uint32_t place = first_[corner]; place != kNone; place = next_[place])
+      if (test(place / 3)) return true;
+    return false;
+  }
+
   void neighbours(uint32_t corner, std::vector<uint32_t>& found) const {
     found.clear();
-    for (const uint32_t t : around_[corner])
-      for (const uint32_t other : mesh_.triangles[t].corners)
+    for (uint32_t place = first_[corner]; place != kNone; place = next_[place])
+      for (const uint32_t other : mesh_.triangles[place / 3].corners)
         if (other != corner) found.push_back(other);
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -67,7 +88,7 @@ class Collapser {
   /// Moves b to a, if what the two have in common is the edge between them and the two triangles
   /// on it, and no more: the link condition (Dey, Edelsbrunner, Guha and Nekhayev 1999).
   bool collapse(uint32_t a, uint32_t b) {
-    if (around_[a].empty() || around_[b].empty()) return false;
+    if (first_[a] == kNone || first_[b] == kNone) return false;
     neighbours(a, near_a_);
     neighbours(b, near_b_);
     if (!std::binary_search(near_a_.begin(), near_a_.end(), b)) return false;
@@ -83,21 +104,20 @@ class Collapser {
     const auto closes = [&](uint32_t t) {
       return has(mesh_.triangles[t], common_[0]) && has(mesh_.triangles[t], common_[1]);
     };
-    if (std::any_of(around_[a].begin(), around_[a].end(), closes) &&
-        std::any_of(around_[b].begin(), around_[b].end(), closes))
-      return false;
-    for (const uint32_t t : around_[b]) {
-      SolidMesh::Triangle& triangle = mesh_.triangles[t];
-      if (has(triangle, a)) {
-        is_gone_[t] = true;
-        for (const uint32_t corner : triangle.corners)
-          if (corner != b) std::erase(around_[corner], t);
+    if (any_around(a, closes) && any_around(b, closes)) return false;
+    for (uint32_t place = first_[b], next; place != kNone; place = next) {
+      next = next_[place];
+      const uint32_t t = place / 3;
+      if (!has(mesh_.triangles[t], a)) {
+        corner_at(place) = a;
+        push(a, place);
         continue;
       }
-      std::replace(triangle.corners.begin(), triangle.corners.end(), b, a);
-      around_[a].push_back(t);
+      is_gone_[t] = true;
+      for (const uint32_t corner : mesh_.triangles[t].corners)
+        if (corner != b) erase(corner, t);
     }
-    around_[b].clear();
+    first_[b] = kNone;
     if (moved_.empty())
       for (uint32_t i = 0; i < mesh_.corners.size(); ++i) moved_.push_back(i);
     moved_[b] = a;
@@ -110,7 +130,7 @@ class Collapser {
     uint32_t corners = 0;
     for (uint32_t i = 0; i < mesh_.corners.size(); ++i) {
       numbers[i] = corners;
-      if (!around_[i].empty()) mesh_.corners[corners++] = mesh_.corners[i];
+      if (first_[i] != kNone) mesh_.corners[corners++] = mesh_.corners[i];
     }
     mesh_.corners.resize(corners);
     size_t triangles = 0;
@@ -137,10 +157,13 @@ class Collapser {
     for (SolidMesh::Triangle& triangle : mesh_.triangles) triangle.face = numbers[triangle.face];
   }
 
+  static constexpr uint32_t kNone = UINT32_MAX;
   SolidMesh& mesh_;
-  std::vector<bool> is_gone_;                  ///< by triangle
-  std::vector<std::vector<uint32_t>> around_;  ///< by corner: its triangles
-  std::vector<uint32_t> moved_;                ///< by corner: where it went
+  std::vector<bool> is_gone_;  ///< by triangle
+  // The triangles around a corner are a list of places, 3 t + i for corner i of triangle t.
+  std::vector<uint32_t> first_;  ///< by corner
+  std::vector<uint32_t> next_;   ///< by place
+  std::vector<uint32_t> moved_;  ///< by corner: where it went
   std::vector<uint32_t> near_a_, near_b_, common_;
 };
 

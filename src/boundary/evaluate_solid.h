@@ -20,6 +20,8 @@ struct BoundaryStats {
   /// How often pieces were joined. More than once if cells disagreed, which they may by less than
   /// the boundaries' slack.
   size_t joins = 0;
+  size_t whole_planes = 0;  ///< whose faces were decided one by one, without cells
+  double planes_ms = 0, group_ms = 0, faces_ms = 0;
   double cells_ms = 0, cut_ms = 0, join_ms = 0, fill_ms = 0;
 };
 
@@ -34,7 +36,9 @@ struct BoundarySettings {
   size_t cell_memory = size_t(1) << 30;  ///< as SubdivideSettings::memory
   /// Pairs of half-spaces that meet in a leaf, of all leaves together: about what cutting takes.
   uint64_t pairs = UINT64_MAX;
-  size_t pieces = SIZE_MAX;  ///< convex ones that cells cut
+  size_t pieces = SIZE_MAX;  ///< convex ones that faces are cut into
+  /// Faces that can be decided one by one are; else all are cut in cells. The boundary is the same.
+  bool whole_faces = true;
 };
 
 /// The boundary of the scene's solid; nothing of an empty one. Its corners are right to a few units

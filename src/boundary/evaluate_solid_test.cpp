@@ -183,6 +183,46 @@ INSTANTIATE_TEST_SUITE_P(
                     RandomTreeOptions{.primitives = 14, .coincident = true},
                     RandomTreeOptions{.primitives = 14, .coincident = true, .nearly = true}));
 
+/// Balls that cut one another in a block: most facets are whole or gone, and no cell is made.
+TEST(EvaluateSolid, FacesThatNoOtherLiesOnNeedNoCells) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> place(-4, 4);
+  std::string text = "difference() { cube(size = 8, center = true);";
+  for (int i = 0; i < 30; ++i) {
+    text += "multmatrix([[1,0,0," + std::to_string(place(random)) + "],[0,1,0," +
+            std::to_string(place(random)) + "],[0,0,1," + std::to_string(place(random)) +
+            "],[0,0,0,1]]) sphere(r = 1.3, $fn = 20);";
+  }
+  const Scene scene = facetted(text + "}");
+  BoundaryStats stats;
+  const SolidMesh mesh = solid(scene, &stats);
+  EXPECT_EQ(manifold_fault(mesh), "");
+  EXPECT_EQ(stats.leaves, 0u);
+  EXPECT_GT(stats.whole_planes, 5000u);
+  expect_same_points(scene, mesh, 1, "balls");
+}
+
+/// What is asked as a whole and what cells cut are the same: the outlines and the solid.
+TEST(EvaluateSolid, FacesAndCellsAgree) {
+  size_t whole = 0;
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = facetted(random_tree(
+        seed, {.primitives = 14, .coincident = seed % 3 == 1, .nearly = seed % 3 == 2}));
+    const Workers workers(2);
+    BoundaryStats faces, cells;
+    const Result<SolidMesh> one = evaluate_solid(scene, workers, &faces),
+                            other = evaluate_solid(scene, workers, &cells, {.whole_faces = false});
+    ASSERT_TRUE(one && other);
+    whole += faces.whole_planes;
+    EXPECT_EQ(cells.whole_planes, 0u);
+    EXPECT_EQ(faces.outline_edges, cells.outline_edges);
+    EXPECT_EQ(faces.shared_edges, cells.shared_edges);
+    EXPECT_NEAR(volume(*one), volume(*other), 1e-12 * std::max(1.0, volume(*other)));
+  }
+  EXPECT_GT(whole, 1000u);
+}
+
 /// How much of what is outward there is of each body.
 std::map<uint32_t, double> areas(const SolidMesh& mesh, Vec3 outward) {
   std::map<uint32_t, double> areas;

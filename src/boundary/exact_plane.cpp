@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace whittle {
 namespace {
@@ -74,29 +75,41 @@ ExactPlane ExactGrid::square_plane(int axis, double at) const {
   return make(n, at, above);
 }
 
+size_t PlaneTable::slot_of(const ExactPlane& plane) const {
+  uint64_t hash = uint64_t(plane.d) ^ uint64_t(UInt128(plane.d) >> 64);
+  for (const int64_t component : plane.n)
+    hash = (hash ^ uint64_t(component)) * 0x9e3779b97f4a7c15, hash ^= hash >> 32;
+  size_t at = hash & (slots_.size() - 1);
+  while (slots_[at] != kFree && planes_[slots_[at]] != plane) at = (at + 1) & (slots_.size() - 1);
+  return at;
+}
+
+void PlaneTable::grow() {
+  const std::vector<uint32_t> before =
+      std::exchange(slots_, std::vector<uint32_t>(4 * slots_.size(), kFree));
+  for (const uint32_t number : before)
+    if (number != kFree) slots_[slot_of(planes_[number])] = number;
+}
+
 uint32_t PlaneTable::add(const ExactPlane& plane) {
-  const auto [at, is_new] = numbers_.try_emplace(plane, uint32_t(planes_.size()));
-  if (is_new) {
-    planes_.push_back(plane);
-    RoundedPlane rounded;
-    for (int i = 0; i < 3; ++i) rounded.n[i] = std::ldexp(double(plane.n[size_t(i)]), -kNormalBits);
-    rounded.d = std::ldexp(double(plane.d), -kNormalBits);
-    rounded_.push_back(rounded);
-  }
-  return at->second;
+  if (2 * (taken_ + 1) > slots_.size()) grow();
+  uint32_t& number = slots_[slot_of(plane)];
+  if (number != kFree) return number;
+  ++taken_;
+  number = uint32_t(planes_.size());
+  planes_.push_back(plane);
+  constexpr double kUnit = 1.0 / double(int64_t(1) << kNormalBits);
+  RoundedPlane rounded;
+  for (int i = 0; i < 3; ++i) rounded.n[i] = double(plane.n[size_t(i)]) * kUnit;
+  rounded.d = double(plane.d) * kUnit;
+  rounded_.push_back(rounded);
+  return number;
 }
 
 uint32_t PlaneTable::add_copy(uint32_t number) {
   planes_.push_back(ExactPlane(planes_[number]));
   rounded_.push_back(RoundedPlane(rounded_[number]));
   return uint32_t(planes_.size() - 1);
-}
-
-size_t PlaneTable::Hash::operator()(const ExactPlane& plane) const {
-  uint64_t hash = uint64_t(plane.d) ^ uint64_t(UInt128(plane.d) >> 64);
-  for (const int64_t component : plane.n)
-    hash = (hash ^ uint64_t(component)) * 0x9e3779b97f4a7c15, hash ^= hash >> 32;
-  return hash;
 }
 
 }  // namespace whittle

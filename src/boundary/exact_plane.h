@@ -8,7 +8,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "boundary/wide_int.h"
@@ -62,19 +61,23 @@ class PlaneTable {
   /// A plane once more, by a number of its own, which add() and find() do not give.
   uint32_t add_copy(uint32_t number);
   /// The number of a plane that is there.
-  uint32_t find(const ExactPlane& plane) const { return numbers_.at(plane); }
+  uint32_t find(const ExactPlane& plane) const { return slots_[slot_of(plane)]; }
 
   const ExactPlane& operator[](uint32_t number) const { return planes_[number]; }
   const RoundedPlane& rounded(uint32_t number) const { return rounded_[number]; }
   size_t size() const { return planes_.size(); }
 
  private:
-  struct Hash {
-    size_t operator()(const ExactPlane& plane) const;
-  };
+  static constexpr uint32_t kFree = UINT32_MAX;
+  /// Where a plane is, or would be.
+  size_t slot_of(const ExactPlane& plane) const;
+  void grow();
+
   std::vector<ExactPlane> planes_;
   std::vector<RoundedPlane> rounded_;
-  std::unordered_map<ExactPlane, uint32_t, Hash> numbers_;
+  /// Numbers, by hash of the plane; less than half is taken. As many as a power of two.
+  std::vector<uint32_t> slots_ = std::vector<uint32_t>(64, kFree);
+  size_t taken_ = 0;
 };
 
 }  // namespace whittle

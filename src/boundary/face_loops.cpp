@@ -1,24 +1,33 @@
 #include "boundary/face_loops.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <numeric>
 
 namespace whittle {
 
 std::vector<uint32_t> twins_of(const SolidMesh& mesh) {
+  // By lower corner first.
   struct Edge {
-    uint32_t low, high, number;
+    uint32_t high, number;
   };
-  std::vector<Edge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for (uint32_t i = 0; i < 3; ++i) {
-      const auto [low, high] =
-          std::minmax({mesh.triangles[t].corners[i], mesh.triangles[t].corners[(i + 1) % 3]});
-      edges.push_back({low, high, 3 * t + i});
-    }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return a.low != b.low ? a.low < b.low : a.high < b.high;
-  });
+  const auto visit_edges = [&](const auto& visit) {
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
+      for (uint32_t i = 0; i < 3; ++i) {
+        const auto [low, high] =
+            std::minmax(mesh.triangles[t].corners[i], mesh.triangles[t].corners[(i + 1) % 3]);
+        visit(low, Edge{high, 3 * t + i});
+      }
+  };
+  std::vector<uint32_t> ends(mesh.corners.size() + 1);
+  visit_edges([&](uint32_t low, const Edge&) { ++ends[low + 1]; });
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<Edge> edges(3 * mesh.triangles.size());
+  visit_edges([&](uint32_t low, const Edge& edge) { edges[ends[low]++] = edge; });
+  size_t first = 0;
+  for (size_t low = 0; low < mesh.corners.size(); first = ends[low++])
+    std::sort(edges.begin() + std::ptrdiff_t(first), edges.begin() + ends[low],
+              [](const Edge& a, const Edge& b) { return a.high < b.high; });
   std::vector<uint32_t> twins(edges.size());
   for (size_t i = 0; i + 1 < edges.size(); i += 2) {
     twins[edges[i].number] = edges[i + 1].number;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <unordered_map>
+
+#include "boundary/numbering.h"
 
 namespace whittle {
 namespace {
@@ -14,8 +17,8 @@ class EdgeSplitter {
   EdgeSplitter(const FilledFaces& filled, const FaceOutlines& outlines, SolidMesh& mesh)
       : filled_(filled), outlines_(outlines), mesh_(mesh) {}
 
-  void run() {
-    const std::vector<Edge> repeated = repeated_edges();
+  void run(const Workers& workers) {
+    const std::vector<Edge> repeated = repeated_edges(workers);
     if (repeated.empty()) return;
     for (const FilledFaces::Triangle& triangle : filled_.triangles)
       named_.push_back(triangle.corners);
@@ -35,7 +38,7 @@ class EdgeSplitter {
   };
 
   /// Of edges that are there more than once, all but the first, each as it runs from low to high.
-  std::vector<Edge> repeated_edges() const {
+  std::vector<Edge> repeated_edges(const Workers& workers) const {
     std::vector<Edge> edges;
     for (const FilledFaces::Triangle& triangle : filled_.triangles) {
       for (size_t i = 0; i < 3; ++i) {
@@ -44,10 +47,25 @@ class EdgeSplitter {
         if (a < b) edges.push_back({a, b, from, to});
       }
     }
-    std::stable_sort(edges.begin(), edges.end());
+    constexpr size_t kCorners = 256;
+    Buckets by_corner = sort_into_buckets(
+        edges.size(), filled_.points.size() / kCorners + 1,
+        [&](size_t i) { return edges[i].low / kCorners; }, workers);
+    std::vector<std::vector<Edge>> found(by_corner.count());
+    workers.for_parts(by_corner.count(), 16, [&](size_t begin, size_t end, size_t) {
+      for (size_t b = begin; b < end; ++b) {
+        const auto first = by_corner.items.begin() + std::ptrdiff_t(by_corner.firsts[b]),
+                   last = by_corner.items.begin() + std::ptrdiff_t(by_corner.firsts[b + 1]);
+        std::sort(first, last, [&](uint32_t x, uint32_t y) {
+          return edges[x] < edges[y] || (!(edges[y] < edges[x]) && x < y);
+        });
+        for (auto i = first; i != last; ++i)
+          if (i != first && !(edges[*(i - 1)] < edges[*i])) found[b].push_back(edges[*i]);
+      }
+    });
     std::vector<Edge> repeated;
-    for (size_t i = 1; i < edges.size(); ++i)
-      if (!(edges[i - 1] < edges[i])) repeated.push_back(edges[i]);
+    for (const std::vector<Edge>& some : found)
+      repeated.insert(repeated.end(), some.begin(), some.end());
     return repeated;
   }
 
@@ -109,7 +127,8 @@ Vec3 rounded(const ExactPoint& point, double per_unit) {
 
 SolidMesh finish(const FilledFaces& filled, const FaceOutlines& outlines,
                  const std::vector<Pieces::Owner>& owners, const std::vector<uint32_t>& half_spaces,
-                 const ExactGeometry& geometry, double per_unit, Vec3 origin) {
+                 const ExactGeometry& geometry, double per_unit, Vec3 origin,
+                 const Workers& workers) {
   SolidMesh mesh;
   mesh.corners.reserve(filled.points.size());
   for (const uint32_t point : filled.points)
@@ -132,7 +151,7 @@ SolidMesh finish(const FilledFaces& filled, const FaceOutlines& outlines,
     for (size_t i = 0; i < 3; ++i) numbered.corners[i] = filled.fans[triangle.corners[i]];
     mesh.triangles.push_back(numbered);
   }
-  EdgeSplitter(filled, outlines, mesh).run();
+  EdgeSplitter(filled, outlines, mesh).run(workers);
   return mesh;
 }
 

@@ -13,6 +13,7 @@ namespace whittle {
 /// divided by `per_unit` and moved by `origin`.
 SolidMesh finish(const FilledFaces& filled, const FaceOutlines& outlines,
                  const std::vector<Pieces::Owner>& owners, const std::vector<uint32_t>& half_spaces,
-                 const ExactGeometry& geometry, double per_unit, Vec3 origin);
+                 const ExactGeometry& geometry, double per_unit, Vec3 origin,
+                 const Workers& workers);
 
 }  // namespace whittle

@@ -47,6 +47,16 @@ PieceMaker::Polygon PieceMaker::rectangle(uint32_t plane, int axis, const CellSi
   return polygon;
 }
 
+PieceMaker::Polygon PieceMaker::part_in(uint32_t plane, const CellSides& box) {
+  points_.clear();
+  corners_.clear();
+  const int axis = largest_axis(geometry_.plane(plane));
+  Polygon polygon = rectangle(plane, axis, box);
+  polygon = clip(polygon, plane, box.lo[size_t(axis)], 1);
+  if (polygon.count > 0) polygon = clip(polygon, plane, box.hi[size_t(axis)], -1);
+  return polygon;
+}
+
 void PieceMaker::look(Polygon polygon, uint32_t by, bool& has_below, bool& has_above) {
   signs_.clear();
   has_below = has_above = false;
@@ -115,7 +125,7 @@ void PieceMaker::split(Polygon polygon, uint32_t plane, uint32_t own, const Leaf
     if (low.value && high.value && !its.is_asking) {
       if (is_boundary) {
         const uint32_t id = its.id == kSharedOwner ? first_owner_ : its.id;
-        const uint32_t painted = has_paints_ ? paints_.painted(plane, id) : plane;
+        const uint32_t painted = keeps_paints_ ? paints_.painted(plane, id) : plane;
         emit(part.polygon, {sheet_of(painted, *high.value), id});
       }
       if (open_.empty()) return;
@@ -179,20 +189,28 @@ void PieceMaker::fill(Polygon polygon, uint32_t plane, CellLink below, CellLink 
     if (first_owner_ == kSharedOwner || (other != kSharedOwner && other < first_owner_))
       first_owner_ = other;
   }
-  has_paints_ = paints_.are_several(plane);
+  has_paints_ = keeps_paints_ = paints_.are_several(plane);
   if (has_paints_) {
     below_owner_.set(below, scene_, half_spaces_, local_, own);
     above_owner_.set(above, scene_, half_spaces_, local_, own);
   }
-  edges_.clear();
-  owned_.clear();
-  pieces_ = 0;
+  begin_plane();
   const bool is_group =
       below.kind() == CellKind::kConjunction || below.kind() == CellKind::kDisjunction;
   if (is_one_cell && is_group && !has_paints_)
     clip_group(polygon, plane, own, function_below);
   else
     split(polygon, plane, own, function_below, function_above);
+  end_plane(out);
+}
+
+void PieceMaker::begin_plane() {
+  edges_.clear();
+  owned_.clear();
+  pieces_ = 0;
+}
+
+void PieceMaker::end_plane(Pieces& out) {
   if (pieces_ > 1) cancel();
   if (edges_.empty()) return;
   for (const Pieces::Owner& owned : owned_) {
@@ -260,12 +278,8 @@ void PieceMaker::within(CellLink leaf, const CellSides& cell, Pieces& out) {
       return std::find(sides.begin(), sides.end(), plane) != sides.end();
     };
     if (is_side(cell.lo) || is_side(cell.hi)) continue;
-    points_.clear();
-    corners_.clear();
-    const int axis = largest_axis(geometry_.plane(plane));
-    Polygon polygon = rectangle(plane, axis, cell);
-    polygon = clip(polygon, plane, cell.lo[size_t(axis)], 1);
-    if (polygon.count > 0) polygon = clip(polygon, plane, cell.hi[size_t(axis)], -1);
+    if (plane < left_out_.size() && left_out_[plane] != 0) continue;
+    const Polygon polygon = part_in(plane, cell);
     if (polygon.count > 0) fill(polygon, plane, leaf, leaf, out);
   }
 }
@@ -280,6 +294,47 @@ void PieceMaker::between(CellLink below, CellLink above, int axis, const CellSid
   corners_.clear();
   const uint32_t plane = sides.lo[size_t(axis)];
   fill(rectangle(plane, axis, sides), plane, below, above, out);
+}
+
+PieceMaker::Polygon PieceMaker::begin_face(uint32_t plane, std::span<const HalfPlane> around,
+                                           const CellSides& region) {
+  begin_plane();
+  Polygon polygon = part_in(plane, region);
+  for (size_t i = 0; i < around.size() && polygon.count > 0; ++i)
+    polygon = clip(polygon, plane, around[i].plane, around[i].side);
+  return polygon;
+}
+
+Box PieceMaker::box_of(Polygon polygon) const {
+  Box box;
+  for (uint32_t i = 0; i < polygon.count; ++i) {
+    const ApproximatePoint& point = points_[corners_[polygon.first + i].point];
+    const Vec3 error{point.error, point.error, point.error};
+    box.include(point.y - error);
+    box.include(point.y + error);
+  }
+  return box;
+}
+
+std::array<PieceMaker::Polygon, 2> PieceMaker::halves(Polygon polygon, uint32_t plane,
+                                                      uint32_t by) {
+  bool has_below, has_above;
+  look(polygon, by, has_below, has_above);
+  if (!has_above) return {polygon, Polygon{}};
+  if (!has_below) return {Polygon{}, polygon};
+  const Polygon below = cut(polygon, plane, by, -1);
+  return {below, cut(polygon, plane, by, 1)};
+}
+
+void PieceMaker::add_part(Polygon polygon, uint32_t plane, CellLink below, CellLink above,
+                          uint32_t owner) {
+  local_.clear();
+  below_.set(below, half_spaces_, local_);
+  above_.set(above, half_spaces_, local_);
+  first_owner_ = owner;
+  has_paints_ = false;
+  keeps_paints_ = paints_.are_several(plane);
+  split(polygon, plane, local_.add(plane), below_, above_);
 }
 
 }  // namespace whittle

@@ -46,12 +46,15 @@ class PointNames {
 /// Used by one thread at a time.
 class PieceMaker {
  public:
+  /// `left_out`: by number, the planes of which within() makes nothing; none beyond its end.
   PieceMaker(const Scene& scene, const ExactGeometry& geometry,
-             std::span<const PlacedHalfSpace> half_spaces, const Paints& paints)
+             std::span<const PlacedHalfSpace> half_spaces, const Paints& paints,
+             std::span<const uint8_t> left_out = {})
       : scene_(scene),
         geometry_(geometry),
         half_spaces_(half_spaces),
         paints_(paints),
+        left_out_(left_out),
         local_(geometry.plane_count()) {}
 
   /// The pieces within a leaf's cell. What lies in its sides is left to between().
@@ -61,14 +64,36 @@ class PieceMaker {
   /// (`rectangle`: its sides on the two other axes).
   void between(CellLink below, CellLink above, int axis, const CellSides& rectangle, Pieces& out);
 
+  // One face of a body after the other, in parts (face_maker.h).
+
+  /// A row of corners.
+  struct Polygon {
+    uint32_t first = 0, count = 0;
+  };
+  /// What lies on one side of a plane.
+  struct HalfPlane {
+    uint32_t plane;
+    PlaneSide side;
+  };
+
+  /// Points of one body's faces have the same numbers.
+  void begin_body() { names_.clear(); }
+  /// The part of a plane that is in all of these half-spaces and in the region; empty if there is
+  /// none.
+  Polygon begin_face(uint32_t plane, std::span<const HalfPlane> around, const CellSides& region);
+  /// Holds a polygon, in the grid's units.
+  Box box_of(Polygon polygon) const;
+  /// The parts of a polygon below and above a plane; one may be empty.
+  std::array<Polygon, 2> halves(Polygon polygon, uint32_t plane, uint32_t by);
+  /// A part of the face: what is solid below it, and above. It is `owner`'s.
+  void add_part(Polygon polygon, uint32_t plane, CellLink below, CellLink above, uint32_t owner);
+  /// All parts were added.
+  void end_face(Pieces& out) { end_plane(out); }
+
  private:
   struct Corner {
     uint32_t point;  ///< into points_
     uint32_t edge_plane;
-  };
-  /// A row of corners_.
-  struct Polygon {
-    uint32_t first = 0, count = 0;
   };
   /// A part that is looked at later.
   struct Open {
@@ -79,12 +104,16 @@ class PieceMaker {
   };
 
   Polygon rectangle(uint32_t plane, int axis, const CellSides& sides);
+  /// A plane's part in a box, which has no side in that plane.
+  Polygon part_in(uint32_t plane, const CellSides& box);
   /// Which sides of a plane the corners are on; fills signs_.
   void look(Polygon polygon, uint32_t by, bool& has_below, bool& has_above);
   /// The part of a polygon on one side of a plane that was looked at.
   Polygon cut(Polygon polygon, uint32_t plane, uint32_t by, PlaneSide keep);
   Polygon clip(Polygon polygon, uint32_t plane, uint32_t by, PlaneSide keep);
   void fill(Polygon polygon, uint32_t plane, CellLink below, CellLink above, Pieces& out);
+  void begin_plane();
+  void end_plane(Pieces& out);
   /// The body that owns a part of the plane at hand, as far as that is known.
   OwnerFunction::Answer owner() const;
   void split(Polygon polygon, uint32_t plane, uint32_t own, const LeafFunction& below,
@@ -100,6 +129,7 @@ class PieceMaker {
   const ExactGeometry& geometry_;
   std::span<const PlacedHalfSpace> half_spaces_;
   const Paints& paints_;
+  const std::span<const uint8_t> left_out_;
   LocalPlanes local_;
   LeafFunction below_, above_;
   // Of a cell.
@@ -107,7 +137,8 @@ class PieceMaker {
   // Of a plane in it.
   OwnerFunction below_owner_, above_owner_;
   uint32_t first_owner_ = kSharedOwner;
-  bool has_paints_ = false;  ///< owners of parts of the plane differ in paint
+  bool has_paints_ = false;    ///< owners of parts of the plane differ in paint
+  bool keeps_paints_ = false;  ///< the plane is there for several paints
   std::vector<Pieces::Owner> owned_;
   std::vector<ApproximatePoint> points_;
   std::vector<Corner> corners_;

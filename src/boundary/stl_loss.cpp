@@ -13,8 +13,9 @@ namespace {
 /// What is left, with its edges sewn together where triangles between them are left out.
 class Rest {
  public:
-  Rest(const SolidMesh& mesh, std::vector<bool> is_gone, std::vector<bool> is_short)
-      : twins_(twins_of(mesh)), is_gone_(std::move(is_gone)), is_short_(std::move(is_short)) {}
+  Rest(const std::vector<uint32_t>& twins, std::vector<bool> is_gone,
+       const std::vector<bool>& is_short)
+      : twins_(twins), is_gone_(std::move(is_gone)), is_short_(is_short) {}
 
   size_t count_holes() const {
     DisjointSets shells(is_gone_.size());
@@ -58,9 +59,9 @@ class Rest {
     return other;
   }
 
-  std::vector<uint32_t> twins_;
-  std::vector<bool> is_gone_;   ///< by triangle
-  std::vector<bool> is_short_;  ///< by half-edge: its ends are one
+  const std::vector<uint32_t>& twins_;
+  const std::vector<bool> is_gone_;    ///< by triangle
+  const std::vector<bool>& is_short_;  ///< by half-edge: its ends are one
 };
 
 }  // namespace
@@ -72,8 +73,9 @@ StlLoss loss_of(const SolidMesh& mesh, const std::vector<bool>& is_short) {
   StlLoss loss;
   loss.triangles = size_t(std::count(is_gone.begin(), is_gone.end(), true));
   if (loss.triangles == 0) return loss;
-  const Rest whole(mesh, std::vector<bool>(is_gone.size()), is_short),
-      rest(mesh, is_gone, is_short);
+  const std::vector<uint32_t> twins = twins_of(mesh);
+  const Rest whole(twins, std::vector<bool>(is_gone.size()), is_short),
+      rest(twins, is_gone, is_short);
   const size_t before = whole.count_holes(), after = rest.count_holes();
   loss.holes = before > after ? before - after : 0;
   loss.shells = rest.missing_shells();

@@ -31,7 +31,8 @@ Truth Simplifier::unit(Token token, const CellBox& cell, double cell_edge, Expan
   const Side side = classify_bounds(unit, cell);
   if (side != Side::kCrosses) return truth(side, negated);
   if (!unit.is_conjunction()) return boundary(token, cell, expand, out, kept);
-  if (expand == Expand::kLarge && cell_edge > max_component(unit.outer.size())) {
+  if (expand == Expand::kNone ||
+      (expand == Expand::kLarge && cell_edge > max_component(unit.outer.size()))) {
     out.push_back(token);
     return Truth::kVaries;
   }
@@ -209,7 +210,7 @@ Truth Simplifier::simplify(std::span<const Token> in, const Box& cell_box, Expan
                            Formula& out, std::span<const uint32_t> near) {
   const CellBox cell(cell_box, margin_);
   const double cell_edge = max_component(cell_box.size());
-  tight_ = expand != Expand::kLarge;
+  tight_ = expand == Expand::kUnits || expand == Expand::kAll;
   counted_.clear();
   listed_.clear();
   near_ = NearTriangles(near);

@@ -19,6 +19,7 @@ namespace whittle {
 
 /// Which primitives are replaced by what they say in a cell.
 enum class Expand : uint8_t {
+  kNone,   ///< none: all stay whole
   kLarge,  ///< those that are no smaller than the cell; no boundaries
   kUnits,  ///< all but boundaries
   kAll,    ///< all: the formula is of faces only. It serves a leaf; parts of the cell had better be
