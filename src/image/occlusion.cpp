@@ -22,7 +22,6 @@ constexpr float kCosOtherFace = 0.9f;
 /// A mean of fewer rays is too rough.
 constexpr uint32_t kFewRays = 12;
 
-
 /// Sends the rays of all hits.
 class Looking {
  public:
