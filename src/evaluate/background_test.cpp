@@ -40,13 +40,13 @@ TEST(Background, OneWithinAnotherIsAnother) {
 }
 
 TEST(Background, FlatShapesBecomeSolidsAsElsewhere) {
-  EXPECT_EQ(background_tree("sphere(2); %linear_extrude(height = 3) square(2);"), "U(B3(c3))");
+  EXPECT_EQ(background_tree("sphere(2); %linear_extrude(height = 3) square(2);"), "U(B2(c2))");
   EXPECT_EQ(background_tree("linear_extrude(height = 3) { square(2); %circle(9); }"), "none")
       << "of an extrusion nothing is seen but what it makes";
   const Read flat = read_good("cube(1); %square(2);", with_background());
   EXPECT_EQ(flat.model.background, nullptr);
   ASSERT_EQ(flat.warnings.size(), 1u);
-  EXPECT_EQ(flat.warnings[0], "t.csg:1:1: warning: what % marks is flat; it is not drawn");
+  EXPECT_EQ(flat.warnings[0], "t.csg:1:11: warning: what % marks is flat; it is not drawn");
 }
 
 TEST(Background, ChangesNothingOfTheSolid) {

@@ -80,7 +80,7 @@ TEST_F(Ghosts, WhatCannotBeSeeThroughIsSaid) {
   write("mark.csg", "cube(3);\n%square(3);");
   EXPECT_EQ(good({"mark.csg", "-o", "p.png"}).err, "");
   EXPECT_EQ(good({"mark.csg", "-o", "p.png", "--ghosts"}).err,
-            "mark.csg:2:1: warning: what % marks is flat; it is not drawn\n");
+            "mark.csg:2:2: warning: what % marks is flat; it is not drawn\n");
 }
 
 }  // namespace
