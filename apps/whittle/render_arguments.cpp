@@ -17,8 +17,9 @@ constexpr double kLeastScale = 1e-6, kMostScale = 1e6;
 /// On two lines.
 std::string help_of_formats() {
   std::string help = names_of(export_format_choices()) + "; whatever OUT ends in";
-  const size_t films = help.find("gif");
-  return films == std::string::npos ? help : help.insert(films, "\n");
+  // Films begin the second.
+  help.replace(help.find(" gif"), 1, "\n");
+  return help;
 }
 
 TemplateWords words_of(const RenderArguments& a) {
