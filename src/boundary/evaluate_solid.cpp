@@ -179,7 +179,7 @@ class SolidEvaluation {
     if (plan_.units.empty()) return Done{};
     const CuttingPlanes cuts(scene_.region, scene_.faces.size(), grid_, planes_);
     const UnitBoxes boxes(scene_, &workers_);
-    const std::vector<UnitGroup> groups = group_units(scene_, boxes, plan_, workers_);
+    const std::vector<UnitGroup> groups = group_units(scene_, boxes, half_spaces_, plan_, workers_);
     lap(stats_.group_ms);
     PerWorker<FaceMaker> makers(workers_);
     std::atomic<uint64_t> pairs = 0;

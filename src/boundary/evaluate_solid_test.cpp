@@ -202,6 +202,18 @@ TEST(EvaluateSolid, FacesThatNoOtherLiesOnNeedNoCells) {
   expect_same_points(scene, mesh, 1, "balls");
 }
 
+/// Thousands of copies of few bodies: no face is cut into ever smaller parts of the same.
+TEST(EvaluateSolid, FacesThatManyCopiesReach) {
+  std::string text = "difference() { cube(size = 10);";
+  for (int i = 0; i < 20000; ++i)
+    text += "cube(size = " + std::to_string(1 + i % 3) + ", center = true);";
+  BoundaryStats stats;
+  const SolidMesh mesh = solid(facetted(text + "}"), &stats);
+  EXPECT_EQ(manifold_fault(mesh), "");
+  EXPECT_NEAR(volume(mesh), 1000 - 1.5 * 1.5 * 1.5, 1e-9);
+  EXPECT_LT(stats.pieces, 5000u);
+}
+
 /// What is asked as a whole and what cells cut are the same: the outlines and the solid.
 TEST(EvaluateSolid, FacesAndCellsAgree) {
   size_t whole = 0;

@@ -12,6 +12,8 @@ namespace {
 
 /// Faces that so few half-spaces reach are cut by these; the rest are cut in two first.
 constexpr uint32_t kFewHalfSpaces = 24;
+/// What the parts of a face read of formulas before no more are made, and longer formulas cut it.
+constexpr size_t kMostRead = size_t(1) << 24;
 
 bool has_boundary(const Scene& scene, std::span<const Token> formula) {
   return !scene.boundaries.empty() && count_boundaries(scene, formula) > 0;
@@ -150,6 +152,7 @@ bool FaceMaker::halve(PieceMaker::Polygon polygon, uint32_t plane, const Box& bo
 /// Adds those parts of a face, beginning with all of it, that are boundary. False if that is not
 /// known.
 bool FaceMaker::cut(uint32_t plane, uint32_t owner) {
+  size_t read = 0;
   while (!parts_.empty()) {
     Part part = std::move(parts_.back());
     parts_.pop_back();
@@ -163,7 +166,9 @@ bool FaceMaker::cut(uint32_t plane, uint32_t owner) {
       continue;
     }
     if (has_boundary(scene_, simpler_)) return false;
-    if (expanded_size(scene_, simpler_) > kFewHalfSpaces && halve(part.polygon, plane, box))
+    read += part.context.size();
+    if (expanded_size(scene_, simpler_) > kFewHalfSpaces && read <= kMostRead &&
+        !has_few_half_spaces(scene_, simpler_) && halve(part.polygon, plane, box))
       continue;
     if (has_units(simpler_)) {
       const Truth all = simplifier_.simplify(simpler_, box, Expand::kAll, part.context);

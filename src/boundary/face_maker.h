@@ -34,8 +34,10 @@ struct UnitGroup {
 };
 
 /// All units of a plan, sorted so that those of one group stand in a row; groups in which nothing
-/// is boundary are left out.
-std::vector<UnitGroup> group_units(const Scene& scene, const UnitBoxes& boxes, FacePlan& plan,
+/// is boundary are left out. What is not told from the rest soon enough, as where all bodies reach
+/// all places, is taken off the plan.
+std::vector<UnitGroup> group_units(const Scene& scene, const UnitBoxes& boxes,
+                                   std::span<const PlacedHalfSpace> half_spaces, FacePlan& plan,
                                    const Workers& workers);
 
 /// Used by one thread at a time.

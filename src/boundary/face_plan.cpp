@@ -11,6 +11,11 @@ namespace {
 
 /// A group of more faces is halved, if it is more than one unit.
 constexpr size_t kFacesInGroup = 4096;
+/// Every body of a group reads the group's formula: so many tokens in all.
+constexpr uint64_t kMostTokens = uint64_t(1) << 27;
+/// The formulas of groups should get shorter as fast as there are more of them. They may have so
+/// many tokens together, and some times those of the scene's.
+constexpr size_t kFewTokens = size_t(1) << 20, kMostTimes = 8;
 
 Vec3 middle(const Scene& scene, uint32_t unit) {
   return intersect(scene.units[unit].outer, scene.region).center();
@@ -94,6 +99,31 @@ class UnitGrouper {
   Simplifier simplifier_;
 };
 
+size_t tokens_of(const std::vector<UnitGroup>& groups) {
+  size_t tokens = 0;
+  for (const UnitGroup& group : groups) tokens += group.formula.size();
+  return tokens;
+}
+
+/// Takes those groups off the plan whose bodies would read too much.
+void leave_to_cells(const Scene& scene, std::span<const PlacedHalfSpace> half_spaces,
+                    std::vector<UnitGroup>& groups, FacePlan& plan) {
+  uint64_t tokens = 0;
+  std::erase_if(groups, [&](const UnitGroup& group) {
+    const uint64_t its = uint64_t(group.last - group.first) * group.formula.size();
+    if (its <= kMostTokens - tokens) {
+      tokens += its;
+      return false;
+    }
+    for (uint32_t i = group.first; i < group.last; ++i) {
+      const Unit& unit = scene.units[plan.units[i]];
+      for (uint32_t k = 0; k < unit.face_count; ++k)
+        plan.is_whole[half_spaces[scene.faces[unit.first_face + k].literal >> 1].plane] = false;
+    }
+    return true;
+  });
+}
+
 }  // namespace
 
 FacePlan plan_faces(const Scene& scene, std::span<const PlacedHalfSpace> half_spaces,
@@ -138,7 +168,8 @@ FacePlan plan_faces(const Scene& scene, std::span<const PlacedHalfSpace> half_sp
   return plan;
 }
 
-std::vector<UnitGroup> group_units(const Scene& scene, const UnitBoxes& boxes, FacePlan& plan,
+std::vector<UnitGroup> group_units(const Scene& scene, const UnitBoxes& boxes,
+                                   std::span<const PlacedHalfSpace> half_spaces, FacePlan& plan,
                                    const Workers& workers) {
   PerWorker<UnitGrouper> groupers(workers);
   std::vector<UnitGroup> done, open;
@@ -163,9 +194,14 @@ std::vector<UnitGroup> group_units(const Scene& scene, const UnitBoxes& boxes, F
       }
     }
     open = std::move(next);
+    if (tokens_of(open) + tokens_of(done) > kFewTokens + kMostTimes * scene.formula.size()) {
+      plan = {};
+      return {};
+    }
   }
   std::sort(done.begin(), done.end(),
             [](const UnitGroup& a, const UnitGroup& b) { return a.first < b.first; });
+  leave_to_cells(scene, half_spaces, done, plan);
   return done;
 }
 
