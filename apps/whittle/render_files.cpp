@@ -61,7 +61,8 @@ Status draw(const RenderArguments& a, const std::vector<Output>& outputs, const 
   progress.stage("shading");
   const int rays =
       a.antialias > 0 ? a.antialias : default_antialias(a.shading.style, a.shading.quality);
-  Result<Picture> shaded = renderer.shade(frame, camera, a.shading, rays);
+  Result<Picture> shaded = a.xray ? renderer.xray(camera, a.shading, rays)
+                                  : renderer.shade(frame, camera, a.shading, rays);
   if (!shaded) return shaded.error();
   picture = *std::move(shaded);
   return Done{};
@@ -209,6 +210,7 @@ Status render_frames(RenderArguments& a, const std::vector<Output>& outputs, Mad
     std::erase_if(read->warnings,
                   [&](const std::string& warning) { return !said.insert(warning).second; });
     if (Status fit = say_warnings(*read, a.loading); !fit) return fit;
+    if (Status opened = open_if_asked(a.loading.section, read->model); !opened) return opened;
     std::vector<Output> frame = outputs;
     for (Output& output : frame) {
       output.path = frame_output(a, output.path, animation.first() + int(i));

@@ -13,23 +13,39 @@
 #include "base/workers.h"
 #include "gpu/devices.h"
 #include "image/antialias.h"
+#include "image/cap_owners.h"
 #include "image/cut_faces.h"
 #include "image/draw_outlines.h"
 #include "image/studio.h"
+#include "image/xray.h"
 #include "lower/lower.h"
 #include "model/instances.h"
+#include "model/section.h"
 #include "subdivide/solid_bounds.h"
 #include "subdivide/threshold.h"
 #include "trace/closeness.h"
 #include "trace/drawing_tracer.h"
 #include "trace/oracle/oracle.h"
 #include "trace/pixel_threshold.h"
+#include "trace/section_tracer.h"
 
 namespace whittle {
 namespace {
 
 /// A point that touches the eye needs no endless number of them.
 constexpr double kMostRays = 1e24;
+
+/// How the statements look, and behind them the caps of what is cut open: each in the colour of the
+/// statement whose material it is; what has no colour is told apart as cut.
+std::vector<Appearance> looks_of(const Model& model) {
+  std::vector<Appearance> looks = appearances(model);
+  if (!model.cut) return looks;
+  const Cut& cut = *model.cut;
+  looks.resize(size_t(cut.last_plane) + cut.first_plane);
+  for (uint32_t id = 1; id < cut.first_plane; ++id)
+    looks[cut.cap_of(id)] = {.color = looks[id].color, .cut = true};
+  return looks;
+}
 
 }  // namespace
 
@@ -55,8 +71,11 @@ struct Renderer::State {
   Workers workers;
   std::vector<Appearance> looks;
   StageTimes times;
-  std::optional<Box> framed;  ///< made when a camera first asks
-  bool has_end = true;        ///< what is framed is the solid's own box
+  std::optional<Box> framed;   ///< made when a camera first asks
+  bool has_end = true;         ///< what is framed is the solid's own box
+  std::optional<Scene> whole;  ///< of a model that is cut open what it was before; made as `framed`
+  std::optional<CapOwners> cap_owners;  ///< of a model that is cut open
+  std::optional<Box> left;              ///< the box of what is left of it; made when a style asks
   // In the order in which they are made from one another.
   Scene scene;
   std::optional<CutFaces> cut_faces;  ///< made when a style first asks
@@ -70,6 +89,7 @@ struct Renderer::State {
       backend;                             ///< of plain tracers there is the oracle's
   Tracer* tracer = nullptr;                ///< the backend's; null: there is none
   std::unique_ptr<DrawingTracer> drawing;  ///< over the tracer, if the model is one
+  std::unique_ptr<SectionTracer> section;  ///< over the tracer, if the model is cut open
   Refine refine = Refine::kWhereRaysCome;
   bool is_auto = false;  ///< nobody chose the backend
   std::shared_ptr<RasterDevice> device;
@@ -81,6 +101,9 @@ struct Renderer::State {
   Status choose_backend();
   /// What is framed where view-all is on.
   const Box& framed_box();
+  const Box& left_box();
+  /// What framed_box() is the box of: the scene, or what it was before it was cut.
+  const Scene& framed_scene();
   /// For as many rays as the camera has, or more if it looks closely at a part.
   Status make_tracer(const Camera& camera);
   Status make_tracer(const Camera& camera, double rays);
@@ -139,21 +162,38 @@ Result<Renderer> Renderer::make(const Model& model, const RendererSettings& sett
   auto state = std::make_unique<State>(model, settings);
   if (Status chosen = state->choose_backend(); !chosen) return chosen.error();
   const Stopwatch watch;
-  state->looks = appearances(model);
+  state->looks = looks_of(model);
   Result<Scene> scene = lower(model, &state->workers);
   if (!scene) return scene.error();
   state->scene = std::move(*scene);
+  if (model.cut) state->cap_owners.emplace(state->scene);
   state->times.lower = watch.milliseconds();
   return Renderer(std::move(state));
 }
 
 const Box& Renderer::State::framed_box() {
   if (!framed) {
-    const SolidBounds solid = solid_bounds(scene, settings.threads);
+    const SolidBounds solid = solid_bounds(framed_scene(), settings.threads);
     has_end = solid.bounded;
     framed = seen_box(model, has_end ? solid.box : bounds(model).box);
   }
   return *framed;
+}
+
+const Scene& Renderer::State::framed_scene() {
+  if (!model.cut) return scene;
+  if (!whole) {
+    // It has fewer faces than what was lowered already.
+    Result<Scene> lowered = lower(uncut(model), &workers);
+    WHITTLE_CHECK(lowered);
+    whole = *std::move(lowered);
+  }
+  return *whole;
+}
+
+const Box& Renderer::State::left_box() {
+  if (!left) left = solid_bounds(scene, settings.threads).box;
+  return *left;
 }
 
 Camera Renderer::camera(const ViewOptions& options, GimbalView* view) {
@@ -166,7 +206,8 @@ Camera Renderer::camera(const ViewOptions& options, GimbalView* view) {
   const Reach reach = [&](const Directions& directions) {
     if (!s.has_end || s.model.drawing) return box_reach(framed, directions);
     std::array<double, 4> found;
-    std::ranges::copy(solid_reach(s.scene, framed, directions, s.settings.threads), found.begin());
+    std::ranges::copy(solid_reach(s.framed_scene(), framed, directions, s.settings.threads),
+                      found.begin());
     return found;
   };
   const FramedView framing = frame_view(options, file, framed, reach);
@@ -177,11 +218,13 @@ Camera Renderer::camera(const ViewOptions& options, GimbalView* view) {
 
 Tracer& Renderer::State::seen() {
   WHITTLE_CHECK(tracer);
-  return drawing ? *drawing : *tracer;
+  if (drawing) return *drawing;
+  return section ? static_cast<Tracer&>(*section) : *tracer;
 }
 
 void Renderer::State::discard() {
   drawing.reset();
+  section.reset();
   tracer = nullptr;
   backend = {};
   scout.reset();
@@ -198,6 +241,12 @@ Status Renderer::State::make_tracer(const Camera& camera, double rays) {
   const Status made = make_backend(camera, rays);
   if (made && model.drawing)
     drawing = std::make_unique<DrawingTracer>(*tracer, bounds(model).box, workers);
+  if (made && model.cut) {
+    const auto owner = [this](Vec3 point, Vec3 outward) {
+      return cap_owners->owner(point, outward);
+    };
+    section = std::make_unique<SectionTracer>(*tracer, *model.cut, owner, workers);
+  }
   return made;
 }
 
@@ -318,10 +367,13 @@ Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
     look.lone_primitive = lone_primitive(s.model);
   }
   look.is_drawing = s.model.drawing.has_value();
+  look.cut = s.model.cut;
   // On a plane there are none.
   if (look.shadows && !s.model.drawing) look.casters = view_region(bounds(s.model));
   if (look.style == Style::kStudio && !s.model.drawing) {
     look.solid = s.framed_box();
+    // What is cut away casts no shadow, and need not be stood on.
+    if (s.model.cut && s.has_end) look.solid = s.left_box();
     // What is framed of a solid without end does not say how far down it reaches.
     look.ground = look.ground && s.has_end;
   }
@@ -338,6 +390,26 @@ Result<Picture> Renderer::shade(const Frame& frame, const Camera& camera,
   if (look.is_drawing && look.style == Style::kOpenscad) {
     const Rgb8 color = effective_scheme(look).outline;
     draw_outlines(*s.model.drawing, camera, color, std::max(antialias, 1), picture);
+  }
+  s.times.shade = watch.milliseconds();
+  return picture;
+}
+
+Result<Picture> Renderer::xray(const Camera& camera, const ShadeSettings& settings, int antialias,
+                               const std::stop_token& stop) {
+  State& s = *state_;
+  if (const Status looks = s.look_from(camera); !looks && !s.falls_back(looks.error(), camera))
+    return looks.error();
+  const Stopwatch watch;
+  ShadeSettings look = settings;
+  look.is_drawing = s.model.drawing.has_value();
+  const auto drawn = [&] {
+    return xray_picture(s.seen(), camera, s.looks, look, antialias, s.workers, stop);
+  };
+  Picture picture = drawn();
+  if (const Status status = tracer().status(); !status) {
+    if (!s.falls_back(status.error(), camera)) return status.error();
+    picture = drawn();
   }
   s.times.shade = watch.milliseconds();
   return picture;
