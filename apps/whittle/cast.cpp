@@ -75,6 +75,7 @@ class Caster {
   Status answer(std::span<const Ray> rays) {
     if (Status cast = first_only_ ? cast_first(rays) : inquiry_.cast_through(rays, found_); !cast)
       return cast;
+    for (SurfaceCrossing& crossing : found_.all) crossing.id = inquiry_.statement_of(crossing.id);
     std::vector<std::string> texts(rays.size() / kRaysEach + 1);
     workers_.for_parts(texts.size(), 1, [&](size_t first, size_t last, size_t) {
       for (size_t part = first; part < last; ++part) {

@@ -112,6 +112,7 @@ Result<Read> load(const std::string& file, const Loading& loading) {
   Result<Read> read = read_with_progress();
   if (!read) return read;
   if (Status fit = say_warnings(*read, loading); !fit) return fit.error();
+  if (Status opened = open_if_asked(loading.section, read->model); !opened) return opened.error();
   return read;
 }
 

@@ -11,6 +11,7 @@
 #include "limits.h"
 #include "option_group.h"
 #include "scad_options.h"
+#include "section_options.h"
 #include "trace/view.h"
 #include "whittle/renderer.h"
 
@@ -28,6 +29,7 @@ struct Loading {
   bool lenient = false;
   bool quiet = false;
   ScadArguments scad;
+  SectionArguments section;
   const ViewOptions* view = nullptr;  ///< openscad is told its camera
   const int* threads = nullptr;       ///< what --threads says
   /// As FileOptions::standard_input; null: it is read once.
@@ -44,7 +46,7 @@ FileOptions read_options(const Loading& loading);
 /// Prints the warnings. An error instead if --strict or --hardwarnings refuses something among
 /// them.
 Status say_warnings(const Read& read, const Loading& loading);
-/// Reads a file, shows the progress, and says its warnings.
+/// Reads a file, shows the progress, says its warnings, and opens it as --section and its like ask.
 Result<Read> load(const std::string& file, const Loading& loading);
 
 /// Says if nothing is seen, and why.

@@ -25,7 +25,8 @@ Result<Drawn> draw_picture(const RenderArguments& a, const std::vector<Output>& 
   progress.stage("shading");
   const int rays =
       a.antialias > 0 ? a.antialias : default_antialias(a.shading.style, a.shading.quality);
-  Result<Picture> shaded = renderer.shade(drawn.frame, camera, a.shading, rays);
+  Result<Picture> shaded = a.xray ? renderer.xray(camera, a.shading, rays)
+                                  : renderer.shade(drawn.frame, camera, a.shading, rays);
   if (!shaded) return shaded.error();
   const bool has_colors = a.shading.style != Style::kOpenscad || a.shading.is_preview;
   const std::string note = has_colors ? renderer.picture_note() : std::string();

@@ -78,7 +78,7 @@ nlohmann::ordered_json to_json(const Box& box) {
 std::string describe_json(const Read& read, const Info& info, const MassArguments& mass) {
   nlohmann::ordered_json json;
   json["file"] = read.model.file;
-  json["statements"] = read.model.statement_count;
+  json["statements"] = written_statements(read.model);
   json["nodes"] = nlohmann::ordered_json::object();
   for (const WordCount& word : read.counts.words) json["nodes"][word.word] = word.count;
   json["background_nodes"] = read.counts.background;
@@ -168,7 +168,7 @@ std::string describe_text(const Read& read, const Info& info, const MassArgument
     fmt::format_to(std::back_inserter(text), "{:<12} {}\n", name, printable(value));
   };
   add("file", read.model.file);
-  add("statements", fmt::format("{}", read.model.statement_count));
+  add("statements", fmt::format("{}", written_statements(read.model)));
   add("nodes", list(read.counts.words));
   const StatementCounts& counts = read.counts;
   if (counts.background + counts.highlight + counts.root + counts.disabled > 0) {
@@ -202,6 +202,7 @@ int info_command(Arguments arguments) {
   MassArguments mass;
   add_mass_options(line.app(), mass, loading);
   add_loading_options(line, loading);
+  add_section_options(line.app(), loading.section);
   if (const std::optional<int> code = line.parse(arguments)) return *code;
 
   if (wants_json) loading.quiet = true;

@@ -97,6 +97,7 @@ std::optional<double> wall_radius(const Shape& shape, Vec3 p, Vec3 normal) {
 void add_inquiry_options(CommandLine& line, InquiryArguments& a) {
   OptionGroup(line.app(), "Output").add_flag("--json", a.wants_json, "as JSON, one object a line");
   add_loading_options(line, a.loading);
+  add_section_options(line.app(), a.loading.section);
   add_lenient_option(line.app(), a.loading);
   add_machine_options(line.app(), a.renderer, a.loading);
 }
@@ -172,8 +173,9 @@ Result<std::optional<Picked>> Inquiry::pick(const Position& at) {
   return std::optional<Picked>({first, ray.origin + ray.direction * first.distance});
 }
 
-Subject Inquiry::subject(uint32_t id) const {
+Subject Inquiry::subject(uint32_t seen) const {
   const Model& m = model();
+  const uint32_t id = statement_of(seen);
   Subject subject;
   std::vector<const Instance*> parts;
   for (const Instance& instance : instances_)

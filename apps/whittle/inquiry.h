@@ -72,6 +72,12 @@ class Inquiry {
   Status cast(std::span<const Ray> rays, std::span<Hit> hits);
   Status cast_through(std::span<const Ray> rays, RayCrossings& found);
 
+  /// Whether the surface of that id is where a section cuts.
+  bool is_cap(uint32_t id) const { return model().cut && model().cut->is_cap(id); }
+  /// The statement whose surface it is; of a cap, whose material.
+  uint32_t statement_of(uint32_t id) const {
+    return model().cut ? model().cut->statement_of(id) : id;
+  }
   Subject subject(uint32_t id) const;
   /// The diameter, at that point, of the round wall that it lies on, model units. None if there is
   /// no such wall, or if it is not round there.

@@ -47,6 +47,7 @@ Result<Place> look(Inquiry& inquiry, const Position& at) {
   const Result<std::optional<double>> thickness = inquiry.thickness_at(**picked);
   if (!thickness) return thickness.error();
   place.thickness = *thickness;
+  place.picked.hit.id = inquiry.statement_of(place.picked.hit.id);
   return place;
 }
 

@@ -39,7 +39,8 @@ std::string describe_text(const Inquiry& inquiry, const Position& at,
   add("point", text_of(picked->point));
   add("normal", text_of(picked->hit.normal));
   add("distance", text_of(picked->hit.distance));
-  add("id", fmt::format("{}", picked->hit.id));
+  add("id", fmt::format("{}", inquiry.statement_of(picked->hit.id)));
+  if (inquiry.is_cap(picked->hit.id)) add("section", "where it is cut open");
   std::string kind = subject.kind;
   for (const auto& [name, value] : subject.parameters.items())
     kind += fmt::format(", {} {}", name, value.dump());
@@ -61,7 +62,8 @@ std::string describe_json(const Inquiry& inquiry, const Position& at,
     const auto text_or_null = [](const std::string& text) {
       return text.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(text);
     };
-    json["id"] = picked->hit.id;
+    json["id"] = inquiry.statement_of(picked->hit.id);
+    if (inquiry.model().cut) json["section"] = inquiry.is_cap(picked->hit.id);
     json["place"] = text_or_null(subject.place);
     json["statement"] = text_or_null(subject.statement);
     json["point"] = json_of(picked->point);

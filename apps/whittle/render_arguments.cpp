@@ -158,6 +158,10 @@ void add_options(CommandLine& line, RenderArguments& a) {
   add_color_options(app, a.shading);
   add_shadow_option(app, a.shading);
   add_ghost_options(app, a);
+  add_section_options(app, a.loading.section);
+  OptionGroup(app, "Section")
+      .add_flag("--hatch", a.shading.hatch, "caps are hatched, another way for each colour");
+  look.add_flag("--xray", a.xray, "all walls at once, the outer ones faint");
   look.add_count("--aa", "N", a.antialias, 1, kMostAntialias,
                  "N x N rays a pixel at edges, 1 to 16 (studio: 3, plain: 4)");
   add_overlay_options(app, a.overlays);
@@ -237,6 +241,17 @@ Status check_possible(const RenderArguments& a, const std::vector<Output>& outpu
   if (Status possible = check_reference(a.reference); !possible) return possible;
   if (Status possible = check_views(a, outputs); !possible) return possible;
   if (Status possible = check_overlays(a); !possible) return possible;
+  if (a.shading.hatch && !a.loading.section.is_wanted())
+    return Error{ErrorKind::kUsage, "--hatch is for --section; nothing is cut open"};
+  if (a.xray && a.pass != Pass::kColor)
+    return Error{ErrorKind::kUsage, "--xray is a picture of its own; it has no --pass"};
+  if (a.xray && a.shading.shadows)
+    return Error{ErrorKind::kUsage, "--xray has no --shadows; light goes through the solid"};
+  if ((a.renderer.ghosts || a.renderer.thrown_together) &&
+      (a.loading.section.is_wanted() || a.xray)) {
+    return Error{ErrorKind::kUsage,
+                 "--section and --xray show the solid alone; --ghosts and --preview do not"};
+  }
   // All that is to scale on a sheet is orthographic by itself.
   if (a.scale && !a.view.orthographic && a.sheet.views.empty())
     return Error{ErrorKind::kUsage, "--scale is for --projection ortho; no other view has a scale"};

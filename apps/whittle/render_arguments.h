@@ -41,6 +41,7 @@ struct RenderArguments {
   ShadeSettings shading;
   Pass pass = Pass::kColor;
   bool no_background = false;
+  bool xray = false;
   int antialias = 0;  ///< 0: what suits the style
   RendererSettings renderer;
   SubdivisionArguments subdivision;

@@ -185,6 +185,7 @@ Status render_frames(RenderArguments& a, const std::vector<Output>& outputs, Mad
     std::erase_if(read->warnings,
                   [&](const std::string& warning) { return !said.insert(warning).second; });
     if (Status fit = say_warnings(*read, a.loading); !fit) return fit;
+    if (Status opened = open_if_asked(a.loading.section, read->model); !opened) return opened;
     const int number = animation.first() + int(i);
     const Show show = [&](Drawn drawn) { return files.add(number, std::move(drawn)); };
     SummaryFacts facts;

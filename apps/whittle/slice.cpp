@@ -73,6 +73,7 @@ void add_options(CommandLine& line, SliceArguments& a) {
   a.loading.threads = &a.threads;
   add_loading_options(line, a.loading);
   add_lenient_option(app, a.loading);
+  add_section_options(app, a.loading.section);
 }
 
 /// Which files there will be. Fails at once where writing them would fail after the work.

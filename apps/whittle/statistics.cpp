@@ -6,6 +6,8 @@
 #include <array>
 #include <iterator>
 
+#include "model/section.h"
+
 namespace whittle {
 namespace {
 
@@ -91,7 +93,7 @@ std::string statistics(const Model& model, const Renderer& renderer, bool is_aut
     fmt::format_to(out, "device                       {}\n", renderer.backend_note());
   fmt::format_to(out, "nodes         {:>12}\n", model.nodes.size());
   fmt::format_to(out, "primitives    {:>12}   of {} statements\n", model.primitives.size(),
-                 model.statement_count);
+                 written_statements(model));
   if (const Scene* scene = renderer.scene()) {
     fmt::format_to(out, "half-spaces   {:>12}   of {} faces, {} merged\n",
                    scene->half_spaces.size(), scene->faces.size(),

@@ -79,8 +79,11 @@ struct RenderOptions {
   bool shadows = false;              ///< lights reach only what they see; not with Style::kOpenscad
   Quality quality = Quality::kGood;  ///< Style::kStudio
   bool ground = true;                ///< Style::kStudio: a soft shadow below the solid
-  bool background = true;            ///< false: what is not hit is transparent
-  int antialias = 0;  ///< n * n rays a pixel at edges, 1 to 16; 0: what suits the style
+  bool hatch = false;                ///< what Solid::cut_open() cuts through is hatched
+  bool xray = false;       ///< all walls at once, the outer ones faint; of the look only the colour
+                           ///< scheme, background and antialias count
+  bool background = true;  ///< false: what is not hit is transparent
+  int antialias = 0;       ///< n * n rays a pixel at edges, 1 to 16; 0: what suits the style
 };
 
 /// What renders it.
@@ -105,6 +108,9 @@ struct Seen {
   double distance = 0;   ///< from where the ray starts, model units
   Point point{};
   Point normal{};  ///< unit, outward
+  /// It is where Solid::cut_open() cuts, and `id` is the statement whose material it cuts through.
+  /// Beyond statement_count() if that is too thin to be told.
+  bool is_cap = false;
 
   explicit operator bool() const { return id != 0; }
 };
@@ -177,6 +183,12 @@ struct BoundaryMesh {
 
 class Csg;
 
+/// What lies beyond it is taken away: the points p with normal . p >= offset.
+struct CuttingPlane {
+  Point normal{};  ///< of any length but zero
+  double offset = 0;
+};
+
 /// A loaded model. Copies share it; all uses of one object or its copies from several threads at a
 /// time are safe, as nothing changes it.
 class Solid {
@@ -208,6 +220,13 @@ class Solid {
   BoundaryMesh boundary(int threads = 0) const;
   /// None if it was stopped.
   std::optional<BoundaryMesh> boundary(const Control& control, int threads = 0) const;
+
+  /// The solid cut open. Each section takes away what lies beyond all of its planes: with one that
+  /// is a half of space, with two a quarter. Parts that have one of the colours `kept` (red, green
+  /// and blue, 0 to 1) stay whole. Pictures are framed as of the whole solid. A kUsage failure if
+  /// it is flat, or a plane is none.
+  Solid cut_open(const std::vector<std::vector<CuttingPlane>>& sections,
+                 const std::vector<std::array<float, 3>>& kept = {}) const;
 
   /// One picture; for several, a Session keeps what they share.
   Rendering render(const RenderOptions& options = {}, const SessionOptions& session = {}) const;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "lower/scene.h"
@@ -20,9 +21,27 @@ class NearFormula {
   /// The value of the formula where the unit of number u has the value has(u) if the point is
   /// within `margin` of its box, and else none. Iterative.
   template <class Has>
-  bool value_at(Vec3 p, double margin, Has&& has) const;
+  bool value_at(Vec3 p, double margin, Has&& has) const {
+    return look_at(p, margin, has).holds;
+  }
+  /// The unit that the point belongs to, as src/measure/material.h has it: of a union the first
+  /// operand that holds it, of a conjunction the first. None if the formula does not hold there.
+  template <class Has>
+  std::optional<uint32_t> owner_at(Vec3 p, double margin, Has&& has) const {
+    const Finding found = look_at(p, margin, has);
+    if (!found.holds || found.owner == kNobody) return std::nullopt;
+    return found.owner;
+  }
 
  private:
+  static constexpr uint32_t kNobody = UINT32_MAX;
+  struct Finding {
+    bool holds = false;
+    uint32_t owner = kNobody;  ///< a unit
+  };
+  template <class Has>
+  Finding look_at(Vec3 p, double margin, Has&& has) const;
+
   /// Operands next to each other in one group, or one that is a group.
   struct Row {
     uint32_t begin = 0, end = 0;  ///< of their tokens
@@ -50,21 +69,29 @@ inline bool is_near(const Box& box, Vec3 p, double margin) {
 }
 
 template <class Has>
-bool NearFormula::value_at(Vec3 p, double margin, Has&& has) const {
+NearFormula::Finding NearFormula::look_at(Vec3 p, double margin, Has&& has) const {
   struct Group {
     size_t end;
-    bool conjunction, value;
+    bool conjunction;
+    Finding found;
+
+    void add(const Finding& operand) {
+      const bool gives_owner = conjunction ? found.owner == kNobody : !found.holds && operand.holds;
+      found.holds = conjunction ? found.holds && operand.holds : found.holds || operand.holds;
+      if (gives_owner) found.owner = operand.owner;
+    }
   };
   std::vector<Group> open;
   const std::span<const Token> formula = scene_.formula;
   for (size_t i = 0, row = 0;;) {
     const Operand operand = operand_at(formula, i);
     i = operand.index;
-    bool value = false, is_read = false;
+    Finding found;
+    bool is_read = false;
     for (; row < rows_.size() && rows_[row].begin == i && !is_read; ++row) {
       const Row& r = rows_[row];
       if (is_near(r.box, p, margin)) continue;
-      value = r.outside, is_read = true;
+      found.holds = r.outside, is_read = true;
       i = r.end;
       row = r.next - 1;
     }
@@ -72,23 +99,25 @@ bool NearFormula::value_at(Vec3 p, double margin, Has&& has) const {
       const Token token = operand.token();
       ++i;
       if (operand.tokens.size() > 1) {
-        open.push_back(
-            {operand.end(), token.kind() == TokenKind::kAnd, token.kind() == TokenKind::kAnd});
+        const bool conjunction = token.kind() == TokenKind::kAnd;
+        open.push_back({operand.end(), conjunction, {conjunction, kNobody}});
         continue;
       }
       if (token.is_group()) {
-        value = token.kind() == TokenKind::kAnd;
+        found.holds = token.kind() == TokenKind::kAnd;
       } else {
         const uint32_t unit = unit_of(token);
-        value = (is_near(scene_.units[unit].outer, p, margin) && has(unit)) != token.negated();
+        found.holds =
+            (is_near(scene_.units[unit].outer, p, margin) && has(unit)) != token.negated();
+        if (!token.negated()) found.owner = unit;
       }
     }
     for (;; open.pop_back()) {
-      if (open.empty()) return value;
+      if (open.empty()) return found;
       Group& group = open.back();
-      group.value = group.conjunction ? group.value && value : group.value || value;
+      group.add(found);
       if (group.end != i) break;
-      value = group.value;
+      found = group.found;
     }
   }
 }

@@ -132,6 +132,10 @@ Shader::Shader(const Camera& camera, std::span<const Appearance> appearances,
   p.last = uint32_t(p.materials.size());
   cut_ = p.last + 1;
   p.materials.insert(p.materials.end(), {material, cut});
+  if (settings.cut) {
+    cap_look_.emplace(*settings.cut, settings.style);
+    if (settings.hatch) cap_look_->hatch(appearances, camera.width, camera.height);
+  }
 }
 
 template <class Place>
@@ -162,6 +166,13 @@ void Shader::look(std::span<const Hit> hits, const Place& place, const Reaching&
 void Shader::row(std::span<const Hit> hits, std::span<const uint8_t> shadows, int y, SeenHits& seen,
                  uint8_t* rgba) const {
   const auto place = [y](size_t x) { return PixelPosition{float(x) + 0.5f, float(y) + 0.5f}; };
+  if (cap_look_ && cap_look_->any(hits)) {
+    std::vector<PixelPosition> places;
+    for (size_t x = 0; x < hits.size(); ++x) places.push_back(place(x));
+    Colors colors;
+    samples(hits, places, {shadows, {}}, seen, colors);
+    return store(colors, rgba);
+  }
   look(hits, place, {shadows, {}}, seen);
   shade_row(parameters_, seen, y, rgba);
 }
@@ -171,6 +182,7 @@ void Shader::samples(std::span<const Hit> hits, std::span<const PixelPosition> p
   look(
       hits, [&](size_t i) { return places[i]; }, reaching, seen);
   shade_samples(parameters_, seen, places, colors);
+  if (cap_look_) cap_look_->paint(hits, places, reaching.openness, parameters_, colors);
 }
 
 void Shader::store(const Colors& colors, uint8_t* rgba) const {

@@ -11,6 +11,7 @@
 
 #include "base/box.h"
 #include "base/workers.h"
+#include "image/cap_look.h"
 #include "image/colorscheme.h"
 #include "image/cut_faces.h"
 #include "image/picture.h"
@@ -42,6 +43,9 @@ struct ShadeSettings {
   Box casters;                       ///< with shadows: finite, holds all that casts them
   Quality quality = Quality::kGood;  ///< kStudio
   bool ground = true;                ///< kStudio: what is seen casts a soft shadow below it
+  /// Ids of a model that is cut open: its caps are lit flatly (image/cap_look.h).
+  std::optional<Cut> cut;
+  bool hatch = false;  ///< with `cut`: caps are hatched
   Box solid;  ///< kStudio: the solid's; not finite or empty: it has no ground, nothing is hidden
 };
 
@@ -95,6 +99,7 @@ class Shader {
             SeenHits& seen) const;
 
   Camera camera_;
+  std::optional<CapLook> cap_look_;
   ShadeParameters parameters_;
   uint32_t cut_;               ///< of parameters_.materials: without color(), as last
   const CutFaces* cut_faces_;  ///< kOpenscad

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/result.h"
+#include "model/tree_boxes.h"
 #include "shape/shape.h"
 
 namespace whittle {
@@ -222,14 +223,12 @@ Bounds bounds(const Model& model) {
   return bounds(model, [&](uint32_t) { return instance_box(model, *walk.next()); });
 }
 
-Bounds bounds(const Model& model, const std::function<Box(uint32_t)>& box_of) {
+void for_tree_boxes(const Model& model, const std::function<Box(uint32_t)>& box_of,
+                    const std::function<void(uint32_t, const Box&)>& visit) {
   std::vector<BoxFold> open;
-  Box box;
-  const auto give_to_parent = [&](const Box& operand) {
-    if (open.empty()) {
-      box = operand;
-      return;
-    }
+  const auto give_to_parent = [&](uint32_t node, const Box& operand) {
+    visit(node, operand);
+    if (open.empty()) return;
     BoxFold& parent = open.back();
     const NodeKind kind = model.nodes[parent.node].kind;
     if (parent.operands++ == 0)
@@ -241,9 +240,9 @@ Bounds bounds(const Model& model, const std::function<Box(uint32_t)>& box_of) {
   };
   const auto close_before = [&](uint32_t i) {
     while (!open.empty() && model.nodes[open.back().node].end <= i) {
-      const Box done = open.back().box;
+      const BoxFold done = open.back();
       open.pop_back();
-      give_to_parent(done);
+      give_to_parent(done.node, done.box);
     }
   };
   uint32_t passed = 0;  // instances
@@ -254,13 +253,18 @@ Bounds bounds(const Model& model, const std::function<Box(uint32_t)>& box_of) {
       i = node.end;
     } else {
       if (node.kind == NodeKind::kPrimitive)
-        give_to_parent(box_of(passed++));
+        give_to_parent(i, box_of(passed++));
       else
         open.push_back({.node = i, .operands = 0, .box = {}});
       ++i;
     }
   }
   close_before(uint32_t(model.nodes.size()));
+}
+
+Bounds bounds(const Model& model, const std::function<Box(uint32_t)>& box_of) {
+  Box box;  // in the end the root's
+  for_tree_boxes(model, box_of, [&](uint32_t, const Box& of_node) { box = of_node; });
   if (box.is_empty()) return {.box = {}, .bounded = true};
   if (box.is_finite()) return {.box = box, .bounded = true};
 

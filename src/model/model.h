@@ -83,15 +83,33 @@ struct Drawing {
   std::vector<std::vector<Vec2>> outlines;
 };
 
+/// A model that is cut open (model/section.h). The planes' primitives and ids come after all that
+/// were written. What a ray meets on a cap, where a plane cuts, is named by whose material it is:
+/// those ids come after the planes'.
+struct Cut {
+  uint32_t first_primitive = 0;              ///< of the planes'
+  uint32_t first_plane = 0, last_plane = 0;  ///< their ids; the last is Model::statement_count
+
+  /// Caps of a statement's material.
+  uint32_t cap_of(uint32_t statement) const { return last_plane + statement; }
+  bool is_plane(uint32_t id) const { return id >= first_plane && id <= last_plane; }
+  /// A cap that is known to be somebody's, or the plane itself.
+  bool is_cap(uint32_t id) const { return id >= first_plane; }
+  /// The statement whose surface it is, or of a cap whose material. The plane itself if that is
+  /// not known.
+  uint32_t statement_of(uint32_t id) const { return id <= last_plane ? id : id - last_plane; }
+};
+
 struct Model {
   std::string file;         ///< for messages; "<stdin>" for standard input
   std::vector<Node> nodes;  ///< preorder; nodes[0] is the implicit union of all statements
   std::vector<Affine> transforms;
   std::vector<Rgba> colors;
   std::vector<Primitive> primitives;  ///< in file order; ids rise, `*` leaves gaps
-  uint32_t statement_count = 0;       ///< primitive statements in the file; ids are 1..this
+  uint32_t statement_count = 0;       ///< primitive statements; ids are 1..this
   FileView view;
   std::optional<Drawing> drawing;  ///< if it is one
+  std::optional<Cut> cut;          ///< if it is
   /// What `%` marks, where it stands, as a model of its own with this one's ids; null if there is
   /// nothing, or nobody asked for it.
   std::shared_ptr<const Model> background;

@@ -121,7 +121,7 @@ void BoxCutter::sort_bounds(int axis) {
 
 /// Literals that a ray through the cell will meet, up to a factor: each part is met as often as it
 /// has surface. The bounds along the axis must be sorted.
-double BoxCutter::cost(const Box& cell, Cut cut) const {
+double BoxCutter::cost(const Box& cell, BoxCut cut) const {
   // Of all boxes that begin, or end, before there.
   const auto literals_before = [](const std::vector<Bound>& bounds, double at) {
     const auto end = std::ranges::lower_bound(bounds, at, {}, &Bound::at);
@@ -135,12 +135,13 @@ double BoxCutter::cost(const Box& cell, Cut cut) const {
          half_area(high) * (all - literals_before(highs_, cut.at - margin_));
 }
 
-std::optional<Cut> BoxCutter::cut(std::span<const Token> formula, const Box& cell, Cut middle) {
+std::optional<BoxCut> BoxCutter::cut(std::span<const Token> formula, const Box& cell,
+                                     BoxCut middle) {
   if (is_filled(formula, cell)) return std::nullopt;
   find_active(formula, cell);
   sort_bounds(middle.axis);
   double least = kMiddleBetter * cost(cell, middle);
-  std::optional<Cut> best;
+  std::optional<BoxCut> best;
   for (int axis = 0; axis < 3; ++axis) {
     const double beside = kBesideMargins * margin_;
     const auto is_within = [&](double at) {
@@ -155,7 +156,7 @@ std::optional<Cut> BoxCutter::cut(std::span<const Token> formula, const Box& cel
     const auto consider = [&](double at) {
       if (!is_within(at) || at == last) return;
       last = at;
-      const Cut here{axis, at};
+      const BoxCut here{axis, at};
       const double its = cost(cell, here);
       if (its < least) least = its, best = here;
     };

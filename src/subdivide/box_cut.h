@@ -11,7 +11,7 @@
 namespace whittle {
 
 /// A plane that cuts a cell in two.
-struct Cut {
+struct BoxCut {
   int axis = 0;
   double at = 0;
 };
@@ -24,7 +24,7 @@ class BoxCutter {
   /// Of the cuts beside operands' boxes, the one with which rays through the cell meet the fewest
   /// literals, as far as boxes tell. None if `middle` is much better, or if the operands fill the
   /// cell (which is found out at once). Takes n log n time for n operands.
-  std::optional<Cut> cut(std::span<const Token> formula, const Box& cell, Cut middle);
+  std::optional<BoxCut> cut(std::span<const Token> formula, const Box& cell, BoxCut middle);
 
  private:
   /// What some literals say is said in this box.
@@ -40,7 +40,7 @@ class BoxCutter {
   bool is_filled(std::span<const Token> formula, const Box& cell) const;
   void find_active(std::span<const Token> formula, const Box& cell);
   void sort_bounds(int axis);
-  double cost(const Box& cell, Cut cut) const;
+  double cost(const Box& cell, BoxCut cut) const;
 
   const Scene& scene_;
   double margin_;

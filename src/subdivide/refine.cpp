@@ -115,7 +115,7 @@ CellLink Refiner::split(const Cell& cell, const OpenCell& open, const Helpers* h
   return split_in_two(cell, open);
 }
 
-void Refiner::halve(const OpenCell& parent, Cut cut, Halves& halves) {
+void Refiner::halve(const OpenCell& parent, BoxCut cut, Halves& halves) {
   halves.cut = cut;
   halves.cost = 0;
   for (int side = 0; side < 2; ++side) {
@@ -141,7 +141,7 @@ void Refiner::halve(const OpenCell& parent, Cut cut, Halves& halves) {
 CellLink Refiner::split_in_two(const Cell& cell, const OpenCell& parent) {
   const int first = split_axis(parent.box.size(), settings_.split, parent.depth);
   const Vec3 middle = parent.box.center();
-  Cut cut{first, middle[first]};
+  BoxCut cut{first, middle[first]};
   if (settings_.split == SplitRule::kLongest)
     cut = box_cutter_.cut(parent.tokens(), parent.box, cut).value_or(cut);
   halve(parent, cut, halves_);

@@ -58,7 +58,7 @@ class Refiner {
 
   /// The two parts of a cell that is cut: boxes, truths, formulas.
   struct Halves {
-    Cut cut;
+    BoxCut cut;
     OpenCell part[2] = {};
     Truth truth[2] = {};
     Formula formula[2];
@@ -71,7 +71,7 @@ class Refiner {
   Ending ending(const OpenCell& open);
   CellLink split(const Cell& cell, const OpenCell& open, const Helpers* helpers);
   CellLink split_in_two(const Cell& cell, const OpenCell& open);
-  void halve(const OpenCell& parent, Cut cut, Halves& halves);
+  void halve(const OpenCell& parent, BoxCut cut, Halves& halves);
   bool is_wide(std::span<const Token> formula, uint32_t depth) const;
   std::optional<CellLink> split_wide(const Cell& cell, const OpenCell& parent,
                                      const Helpers* helpers);

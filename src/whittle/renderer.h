@@ -95,8 +95,8 @@ class Renderer {
   ~Renderer();
 
   /// The camera for these options and the model's $vp*, framing the solid (solid_bounds) where
-  /// view-all is on. Of a solid that has no end, what bounds() says is framed. `view` is told
-  /// the same in OpenSCAD's words.
+  /// view-all is on. Of a solid that has no end, what bounds() says is framed. One that is cut open
+  /// is framed as if it were whole. `view` is told the same in OpenSCAD's words.
   Camera camera(const ViewOptions& options, GimbalView* view = nullptr);
   /// The same for a camera that then goes round the point looked at. Where view-all is on, the
   /// solid fits the picture all the way round.
@@ -118,6 +118,9 @@ class Renderer {
   Result<Frame> trace(const Camera& camera, const RenderControl& control = {});
   Result<Picture> shade(const Frame& frame, const Camera& camera, const ShadeSettings& settings,
                         int antialias, const std::stop_token& stop = {});
+  /// A picture of all walls at once (image/xray.h). Facts are those that trace() finds.
+  Result<Picture> xray(const Camera& camera, const ShadeSettings& settings, int antialias,
+                       const std::stop_token& stop = {});
   /// Facts for any rays; hits.size() == rays.size().
   Status cast(std::span<const Ray> rays, std::span<Hit> hits);
   /// All crossings of any rays (Tracer::cast_through).

@@ -47,6 +47,7 @@ ShadeSettings shading_of(const RenderOptions& o, Style style) {
   shading.shadows = o.shadows;
   shading.quality = o.quality;
   shading.ground = o.ground;
+  shading.hatch = o.hatch;
   if (!o.color_scheme.empty()) {
     shading.scheme = find_color_scheme(o.color_scheme);
     if (shading.scheme == nullptr) {
@@ -65,6 +66,11 @@ RendererSettings settings_of(const SessionOptions& o) {
   settings.threads = threads_of(o.threads);
   settings.subdivide.memory = o.cell_memory;
   return settings;
+}
+
+/// The statement whose surface, or cap, it is.
+uint32_t statement_of(const Model& model, uint32_t id) {
+  return model.cut ? model.cut->statement_of(id) : id;
 }
 
 Part part_of(const Frame& frame, const PixelRect& rect) {
@@ -88,7 +94,7 @@ RenderControl control_of(const Control& control) {
   return inner;
 }
 
-Rendering rendering_of(const Frame& frame, const Picture& picture) {
+Rendering rendering_of(const Model& model, const Frame& frame, const Picture& picture) {
   Rendering made;
   made.width = frame.width;
   made.height = frame.height;
@@ -99,16 +105,17 @@ Rendering rendering_of(const Frame& frame, const Picture& picture) {
   for (const Hit& hit : frame.hits) {
     made.distance.push_back(hit.distance);
     made.normal.insert(made.normal.end(), {hit.normal.x, hit.normal.y, hit.normal.z});
-    made.id.push_back(hit.id);
+    made.id.push_back(statement_of(model, hit.id));
   }
   return made;
 }
 
-Seen seen_by(const Ray& ray, const Hit& hit) {
+Seen seen_by(const Model& model, const Ray& ray, const Hit& hit) {
   if (!hit.hit()) return {};
   const auto distance = double(hit.distance);
-  return {hit.id, distance, to_point(ray.origin + ray.direction * distance),
-          to_point(to_double(hit.normal))};
+  const bool is_cap = model.cut && model.cut->is_cap(hit.id);
+  return {statement_of(model, hit.id), distance, to_point(ray.origin + ray.direction * distance),
+          to_point(to_double(hit.normal)), is_cap};
 }
 
 }  // namespace
@@ -155,9 +162,10 @@ std::optional<Rendering> Session::render(const RenderOptions& options, const Con
   const int antialias =
       options.antialias > 0 ? options.antialias : default_antialias(shading.style, shading.quality);
   const Picture picture =
-      value_of(s.renderer.shade(frame, camera, shading, antialias, control.stop));
+      value_of(options.xray ? s.renderer.xray(camera, shading, antialias, control.stop)
+                            : s.renderer.shade(frame, camera, shading, antialias, control.stop));
   if (stopped()) return std::nullopt;
-  Rendering made = rendering_of(frame, picture);
+  Rendering made = rendering_of(s.solid->model, frame, picture);
   made.backend = s.renderer.backend();
   made.transparent = !options.background;
   return made;
@@ -171,7 +179,7 @@ Seen Session::pick(const RenderOptions& options, double x, double y) {
   const Ray ray = camera.ray(x, y);
   Hit hit;
   value_of(s.renderer.cast({&ray, 1}, {&hit, 1}));
-  return seen_by(ray, hit);
+  return seen_by(s.solid->model, ray, hit);
 }
 
 std::vector<Seen> Session::cast(std::span<const WorldRay> rays) {
@@ -188,7 +196,9 @@ std::vector<Seen> Session::cast(std::span<const WorldRay> rays) {
   std::vector<Hit> hits(inner.size());
   value_of(s.renderer.cast(inner, hits));
   std::vector<Seen> seen(inner.size());
-  std::ranges::transform(inner, hits, seen.begin(), seen_by);
+  std::ranges::transform(inner, hits, seen.begin(), [&](const Ray& ray, const Hit& hit) {
+    return seen_by(s.solid->model, ray, hit);
+  });
   return seen;
 }
 

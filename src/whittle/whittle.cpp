@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host/read_file.h"
+#include "model/section.h"
 #include "whittle/api.h"
 #include "whittle/output.h"
 #include "whittle/reading.h"
@@ -54,7 +55,7 @@ bool Solid::is_complete() const {
 }
 
 std::uint32_t Solid::statement_count() const {
-  return state_->model.statement_count;
+  return written_statements(state_->model);
 }
 
 std::optional<Place> Solid::place(std::uint32_t id) const {
@@ -69,6 +70,23 @@ std::optional<std::array<Point, 2>> Solid::bounds() const {
   if (!b.bounded || b.box.is_empty()) return std::nullopt;
   const Box box = seen_box(state_->model, b.box);
   return std::array<Point, 2>{to_point(box.lo), to_point(box.hi)};
+}
+
+Solid Solid::cut_open(const std::vector<std::vector<CuttingPlane>>& sections,
+                      const std::vector<std::array<float, 3>>& kept) const {
+  std::vector<Section> cuts;
+  for (const std::vector<CuttingPlane>& section : sections) {
+    Section cut;
+    for (const CuttingPlane& plane : section)
+      cut.planes.push_back(value_of(cutting_plane(to_vec3(plane.normal), plane.offset)));
+    cuts.push_back(std::move(cut));
+  }
+  std::vector<Rgba> colors;
+  for (const std::array<float, 3>& color : kept)
+    colors.push_back({color[0], color[1], color[2], 1});
+  const State& s = *state_;
+  return Solid(std::make_shared<const State>(value_of(whittle::cut_open(s.model, cuts, colors)),
+                                             s.warnings, s.is_complete, s.style));
 }
 
 Rendering Solid::render(const RenderOptions& options, const SessionOptions& session) const {
