@@ -8,6 +8,7 @@
 #include "many_files.h"
 #include "render_arguments.h"
 #include "render_files.h"
+#include "window/show_window.h"
 
 namespace whittle {
 namespace {
@@ -83,7 +84,12 @@ int run_many(const RenderArguments& all, const std::vector<Output>& outputs) {
   return draw_all(many, draw);
 }
 
-Result<int> run(RenderArguments& a) {
+Result<int> run(RenderArguments& a, Arguments arguments) {
+  if (a.outputs.empty() && !a.reference.file) {
+    if (Status possible = settle_device(a.renderer); !possible) return possible.error();
+    apply(a.subdivision, a.renderer);
+    return show_window(a, arguments);
+  }
   const Result<std::vector<Output>> outputs = choose_outputs(a);
   if (!outputs) return outputs.error();
   if (Status possible = settle_device(a.renderer); !possible) return possible.error();
@@ -106,7 +112,7 @@ int render_command(Arguments arguments) {
   RenderArguments a;
   add_options(line, a);
   if (const std::optional<int> code = line.parse(arguments)) return *code;
-  const Result<int> code = run(a);
+  const Result<int> code = run(a, arguments);
   return code ? *code : report(code.error());
 }
 

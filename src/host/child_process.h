@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 
 namespace whittle {
@@ -13,6 +14,7 @@ struct ProgramSurroundings {
   std::string messages;             ///< the file that its output and errors go to
   std::string input = "/dev/null";  ///< the file that it reads as standard input
   std::string folder{};             ///< where it runs; empty: here
+  std::stop_token stop{};           ///< kills it, with what it has started
 };
 
 /// Runs a program without a shell. `arguments` end with a null. The status as of waitpid, or the

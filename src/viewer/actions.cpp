@@ -30,8 +30,7 @@ constexpr KeyBinding kBindings[] = {
     {key_of('F'), kPlain, Action::kFit, kView, "F", "all of it, as it is turned"},
     {Key::kEnter, kPlain, Action::kReset, kView, "Enter", "the first view again"},
 
-    {key_of('S'), kPlain, Action::kStyle, kLook, "S",
-     "next style: studio, plain, blinn, openscad"},
+    {key_of('S'), kPlain, Action::kStyle, kLook, "S", "next style: studio, plain, blinn, openscad"},
     {key_of('T'), kPlain, Action::kQuality, kLook, "T", "next quality: draft, good, best"},
     {key_of('L'), kPlain, Action::kShadows, kLook, "L", "shadows of the lights"},
     {key_of('G'), kPlain, Action::kGround, kLook, "G", "shadow on the ground"},
@@ -96,11 +95,16 @@ std::optional<Action> action_of(Key key, Modifiers with) {
 
 const char* title_of(HelpGroup group) {
   switch (group) {
-    case HelpGroup::kMouse: return "Mouse";
-    case HelpGroup::kView: return "View";
-    case HelpGroup::kLook: return "Look";
-    case HelpGroup::kFile: return "Files";
-    case HelpGroup::kWindow: break;
+    case HelpGroup::kMouse:
+      return "Mouse";
+    case HelpGroup::kView:
+      return "View";
+    case HelpGroup::kLook:
+      return "Look";
+    case HelpGroup::kFile:
+      return "Files";
+    case HelpGroup::kWindow:
+      break;
   }
   return "Window";
 }

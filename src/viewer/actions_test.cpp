@@ -22,7 +22,8 @@ std::vector<std::pair<std::string, std::string>> rows_under(const std::string& h
     if (line.starts_with('#')) is_there = line == "### " + heading;
     const size_t middle = line.find(" | ");
     if (!is_there || !line.starts_with("| ") || middle == std::string::npos) continue;
-    rows.emplace_back(line.substr(2, middle - 2), line.substr(middle + 3, line.size() - middle - 5));
+    rows.emplace_back(line.substr(2, middle - 2),
+                      line.substr(middle + 3, line.size() - middle - 5));
   }
   return rows;
 }
@@ -30,8 +31,7 @@ std::vector<std::pair<std::string, std::string>> rows_under(const std::string& h
 TEST(ActionsTest, NoKeyMeansTwoThings) {
   std::set<std::tuple<int, bool, bool>> keys;
   for (const KeyBinding& binding : key_bindings())
-    EXPECT_TRUE(
-        keys.insert({int(binding.key), binding.with.control, binding.with.shift}).second)
+    EXPECT_TRUE(keys.insert({int(binding.key), binding.with.control, binding.with.shift}).second)
         << binding.shown;
 }
 
@@ -51,8 +51,11 @@ TEST(ActionsTest, EveryActionHasAKey) {
 }
 
 TEST(ActionsTest, KeysWithOneMeaningShareALine) {
-  for (const HelpLine& line : help_lines())
-    if (line.does == "quit") EXPECT_EQ(line.keys, "Q, Ctrl+Q, Esc");
+  for (const HelpLine& line : help_lines()) {
+    if (line.does == "quit") {
+      EXPECT_EQ(line.keys, "Q, Ctrl+Q, Esc");
+    }
+  }
 }
 
 TEST(ActionsTest, ThePageListsWhatTheHelpLists) {

@@ -10,8 +10,9 @@
 namespace whittle {
 namespace {
 
-constexpr std::string_view kWithValue[] = {"--camera", "--imgsize", "--projection", "--fov",
-                                           "--style",  "--quality", "--pass",       "--colorscheme"};
+constexpr std::string_view kWithValue[] = {"--camera", "--imgsize",    "--projection",
+                                           "--fov",    "--style",      "--quality",
+                                           "--pass",   "--colorscheme"};
 constexpr std::string_view kFlags[] = {"--viewall", "--autocenter", "--shadows", "--no-ground"};
 
 /// As a shell has to be told.
@@ -82,7 +83,8 @@ std::string command_text(std::span<const std::string> kept, const std::string& f
   words.push_back("--camera=" + camera_of_command(view));
   words.push_back(fmt::format("--imgsize={},{}", size.width, size.height));
   if (view.orthographic) words.emplace_back("--projection=ortho");
-  if (view.fov_degrees != kDefaultFovDegrees) words.push_back(fmt::format("--fov={}", view.fov_degrees));
+  if (view.fov_degrees != kDefaultFovDegrees)
+    words.push_back(fmt::format("--fov={}", view.fov_degrees));
   for (std::string& word : words_of(look)) words.push_back(std::move(word));
   words.emplace_back("-o");
   words.push_back(output);

@@ -8,9 +8,9 @@ namespace {
 using Words = std::vector<std::string>;
 
 TEST(CommandWordsTest, WhatAWindowChangesIsNotKept) {
-  const std::vector<const char*> arguments{"part.csg",     "--camera",  "0,0,0,1,2,3,4", "-D", "x=1",
-                                           "--style=plain", "--aa",     "2",       "--shadows",
-                                           "--imgsize",    "1,1",       "--strict"};
+  const std::vector<const char*> arguments{
+      "part.csg", "--camera", "0,0,0,1,2,3,4", "-D",        "x=1", "--style=plain",
+      "--aa",     "2",        "--shadows",     "--imgsize", "1,1", "--strict"};
   const Words files{"part.csg"};
   EXPECT_EQ(kept_words(arguments, files), (Words{"-D", "x=1", "--aa", "2", "--strict"}));
 }

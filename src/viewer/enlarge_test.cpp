@@ -33,7 +33,8 @@ TEST(EnlargeTest, ARampStaysARamp) {
   for (int y = 4; y < 26; ++y)
     for (int x = 4; x < 34; ++x)
       for (int c = 0; c < 4; ++c) {
-        const double at_x = (x + 0.5 - 19) / scale + 5 - 0.5, at_y = (y + 0.5 - 15) / scale + 4 - 0.5;
+        const double at_x = (x + 0.5 - 19) / scale + 5 - 0.5,
+                     at_y = (y + 0.5 - 15) / scale + 4 - 0.5;
         EXPECT_NEAR(fine.at(x, y)[c], 10 * at_x + 5 * at_y + c, 1.01) << x << ' ' << y;
       }
 }

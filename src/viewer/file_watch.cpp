@@ -93,8 +93,9 @@ bool FileWatch::State::read_notes() {
       const auto* const event = reinterpret_cast<const inotify_event*>(at);
       at += sizeof(inotify_event) + event->len;
       const auto folder = names.find(event->wd);
-      is_one_of_them = is_one_of_them || (event->mask & IN_Q_OVERFLOW) != 0 ||
-                       (event->len > 0 && folder != names.end() && folder->second.contains(event->name));
+      is_one_of_them =
+          is_one_of_them || (event->mask & IN_Q_OVERFLOW) != 0 ||
+          (event->len > 0 && folder != names.end() && folder->second.contains(event->name));
     }
   }
   return is_one_of_them;
@@ -117,7 +118,8 @@ void FileWatch::State::run(const std::stop_token& quit) {
   bool is_waiting_for_quiet = false;
   while (!quit.stop_requested()) {
     std::array<pollfd, 2> ends{{{notes, POLLIN, 0}, {wake, POLLIN, 0}}};
-    const int ready = ::poll(ends.data(), ends.size(), is_waiting_for_quiet ? kQuietMilliseconds : -1);
+    const int ready =
+        ::poll(ends.data(), ends.size(), is_waiting_for_quiet ? kQuietMilliseconds : -1);
     if (ready < 0 && errno != EINTR) return;
     if ((ends[1].revents & POLLIN) != 0) {
       uint64_t count = 0;

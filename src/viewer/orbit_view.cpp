@@ -102,15 +102,23 @@ OrbitView pivoted(OrbitView view, Vec3 point) {
 OrbitView looking_at(OrbitView view, Side side) {
   const auto degrees = [side]() -> Vec3 {
     switch (side) {
-      case Side::kFront: return {90, 0, 0};
-      case Side::kBack: return {90, 0, 180};
-      case Side::kRight: return {90, 0, 90};
-      case Side::kLeft: return {90, 0, 270};
-      case Side::kTop: return {0, 0, 0};
-      case Side::kBottom: return {180, 0, 0};
+      case Side::kFront:
+        return {90, 0, 0};
+      case Side::kBack:
+        return {90, 0, 180};
+      case Side::kRight:
+        return {90, 0, 90};
+      case Side::kLeft:
+        return {90, 0, 270};
+      case Side::kTop:
+        return {0, 0, 0};
+      case Side::kBottom:
+        return {180, 0, 0};
       // The corner of a cube: its three edges look equally long.
-      case Side::kIsometric: return {54.74, 0, 45};
-      case Side::kDiagonal: break;
+      case Side::kIsometric:
+        return {54.74, 0, 45};
+      case Side::kDiagonal:
+        break;
     }
     return kDefaultRotationDegrees;
   };
@@ -125,7 +133,8 @@ double wheel_factor(double notches) {
 Vec3 point_on_target_plane(const OrbitView& view, PictureSize size, double x, double y) {
   const Camera camera = camera_of(view, size);
   const Ray ray = camera.ray(x, y);
-  const double t = dot(camera.forward, view.target - ray.origin) / dot(camera.forward, ray.direction);
+  const double t =
+      dot(camera.forward, view.target - ray.origin) / dot(camera.forward, ray.direction);
   return ray.origin + ray.direction * t;
 }
 

@@ -33,8 +33,7 @@ Look draft_of(Look look) {
 /// The picture of what the camera sees, as the command line makes it.
 Result<Picture> colored(Renderer& renderer, const Frame& frame, const Camera& camera,
                         const Look& look, const std::stop_token& stop) {
-  if (look.pass != Pass::kColor)
-    return pass_picture(frame, look.pass, look.shading.background);
+  if (look.pass != Pass::kColor) return pass_picture(frame, look.pass, look.shading.background);
   return renderer.shade(frame, camera, look.shading, look.rays(), stop);
 }
 
@@ -127,6 +126,7 @@ Result<std::optional<Painted>> Painter::State::painted(const PaintRequest& reque
   Painted made;
   made.step = step;
   made.view = *request.view;
+  made.number = request.number;
   const Camera camera = camera_of(made.view, request.size);
   if (Status prepared = prepare(camera); !prepared) return prepared.error();
   made.camera = step.scale > 1 ? coarse_camera(camera, step.scale) : camera;
@@ -150,7 +150,8 @@ Result<std::optional<Painted>> Painter::State::painted(const PaintRequest& reque
 }
 
 PickAnswer Painter::State::answer(const PickQuestion& question) {
-  PickAnswer result{.question = question};
+  PickAnswer result;
+  result.question = question;
   const Camera camera = camera_of(question.view, question.size);
   if (!prepare(camera)) return result;
   const Ray ray = camera.ray(question.x, question.y);
@@ -169,13 +170,12 @@ PickAnswer Painter::State::answer(const PickQuestion& question) {
 }
 
 Result<std::string> Painter::State::saved(const SaveRequest& request) {
-  const PaintRequest whole{.view = request.view, .framing = {}, .size = request.size,
-                           .look = request.look};
+  const PaintRequest whole{
+      .view = request.view, .framing = {}, .size = request.size, .look = request.look};
   Result<std::optional<Painted>> made = painted(whole, {1, true}, {});
   if (!made) return made.error();
-  const Result<std::string> bytes =
-      encode(FileFormat::kPng, (*made)->frame, (*made)->picture, !request.look.shading.background,
-             request.path);
+  const Result<std::string> bytes = encode(FileFormat::kPng, (*made)->frame, (*made)->picture,
+                                           !request.look.shading.background, request.path);
   if (!bytes) return bytes.error();
   if (Status written = write_output(request.path, *bytes); !written) return written.error();
   return request.path;
@@ -194,8 +194,7 @@ void Painter::State::paint(std::unique_lock<std::mutex>& lock) {
   const FrameStep step = *plan.next();
   // What is made in motion is made to its end, or there would never be a picture.
   stop = std::stop_source();
-  const std::stop_token token =
-      is_first && !step.is_final ? std::stop_token() : stop.get_token();
+  const std::stop_token token = is_first && !step.is_final ? std::stop_token() : stop.get_token();
   is_first = false;
   PaintRequest& request = *current;
   lock.unlock();
@@ -251,8 +250,7 @@ bool Painter::State::work(std::unique_lock<std::mutex>& lock) {
   }
   if (!current || !plan.next()) return false;
   // Not while it moves: there will be another one at once.
-  if (current->is_moving &&
-      changed.wait_for(lock, kSettled, [this] { return has_work(); }))
+  if (current->is_moving && changed.wait_for(lock, kSettled, [this] { return has_work(); }))
     return true;
   current->is_moving = false;
   paint(lock);

@@ -44,6 +44,7 @@ struct PaintRequest {
   PictureSize size;
   Look look;
   bool is_moving = false;  ///< there will be another one soon
+  uint64_t number = 0;     ///< told of its pictures
 };
 
 struct Painted {
@@ -52,6 +53,7 @@ struct Painted {
   Camera camera;
   OrbitView view;
   FrameStep step;
+  uint64_t number = 0;
   double milliseconds = 0;
 
   /// The point that is seen at a position of the picture, pixels; none if nothing is hit.

@@ -17,7 +17,9 @@ namespace whittle {
 namespace {
 
 constexpr PictureSize kSize{160, 120};
-constexpr const char* kText = "difference() { cube([20, 20, 10]); translate([10, 10, -1]) cylinder(h = 20, r = 6, $fn = 0); }";
+constexpr const char* kText =
+    "difference() { cube([20, 20, 10]); translate([10, 10, -1]) cylinder(h = 20, r = 6, $fn = 0); "
+    "}";
 
 std::unique_ptr<Drawable> drawable_of(const std::string& text) {
   Result<Read> read = read_csg(text, "test.csg");
@@ -31,7 +33,12 @@ PaintRequest request_of(std::optional<OrbitView> view, bool is_moving = false) {
   ViewOptions framing;
   framing.width = kSize.width, framing.height = kSize.height;
   framing.tight = true;
-  return {view, framing, kSize, {}, is_moving};
+  PaintRequest request;
+  request.view = view;
+  request.framing = framing;
+  request.size = kSize;
+  request.is_moving = is_moving;
+  return request;
 }
 
 /// What the command line makes.
@@ -63,10 +70,9 @@ class PainterTest : public testing::Test {
     }
   }
   Painted take_final() {
-    return *std::move(
-        take_until([](const Painter::News& news) {
-          return news.painted && news.painted->step.is_final;
-        }).painted);
+    return *std::move(take_until([](const Painter::News& news) {
+                        return news.painted && news.painted->step.is_final;
+                      }).painted);
   }
 
  private:
@@ -114,7 +120,8 @@ TEST_F(PainterTest, WhatMovesIsShownBeforeItIsFinal) {
   OrbitView view = take_final().view;
   view = rounded(orbited(view, 30, 10));
   painter_.show(request_of(view, true));
-  const Painter::News news = take_until([](const Painter::News& n) { return n.painted.has_value(); });
+  const Painter::News news =
+      take_until([](const Painter::News& n) { return n.painted.has_value(); });
   EXPECT_FALSE(news.painted->step.is_final);
   EXPECT_EQ(news.painted->picture.width, kSize.width);
   EXPECT_EQ(news.painted->picture.height, kSize.height);
@@ -152,13 +159,15 @@ TEST_F(PainterTest, WhatIsSeenIsKnownOfEveryPicture) {
   const OrbitView view{{10, 10, 5}, {0, 0, 0}, 100, 22.5, true};
   painter_.use(drawable_of(kText), request_of(view));
   for (bool is_final = false; !is_final;) {
-    const Painter::News news = take_until([](const Painter::News& n) { return n.painted.has_value(); });
+    const Painter::News news =
+        take_until([](const Painter::News& n) { return n.painted.has_value(); });
     const Painted& made = *news.painted;
     is_final = made.step.is_final;
     const std::optional<Vec3> point = made.point_at(52, 60);
     ASSERT_TRUE(point);
     EXPECT_NEAR(point->z, 10, 1e-4);
-    EXPECT_NEAR(length(*point - point_on_target_plane(view, kSize, 52, 60) - Vec3{0, 0, 5}), 0, 0.5);
+    EXPECT_NEAR(length(*point - point_on_target_plane(view, kSize, 52, 60) - Vec3{0, 0, 5}), 0,
+                0.5);
     EXPECT_FALSE(made.point_at(80, 60));
     EXPECT_FALSE(made.point_at(2, 2));
     EXPECT_FALSE(made.point_at(-1, 60));
@@ -180,7 +189,8 @@ TEST_F(PainterTest, SavesTheFinalPicture) {
     EXPECT_EQ(*news.saved[0], path);
     std::ifstream file(path, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    const Result<std::string> expected = encode(FileFormat::kPng, {}, expected_picture(kText, view, look), !background, path);
+    const Result<std::string> expected =
+        encode(FileFormat::kPng, {}, expected_picture(kText, view, look), !background, path);
     ASSERT_TRUE(expected);
     EXPECT_EQ(bytes, *expected);
   }

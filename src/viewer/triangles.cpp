@@ -103,7 +103,7 @@ class Triangle {
         if (inside[i] < 0) return;
         continue;
       }
-      if (step[i] > 0 && inside[i] < 0) 
+      if (step[i] > 0 && inside[i] < 0)
         x0 = int(std::max<int64_t>(x0, first_x(at, -inside[i], step[i])));
       if (step[i] < 0) {
         if (inside[i] < 0) return;

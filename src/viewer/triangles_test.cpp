@@ -78,8 +78,12 @@ TEST(TrianglesTest, ColoursAreMixedByAlpha) {
 TEST(TrianglesTest, ColoursAreInterpolated) {
   Canvas canvas{256, 2};
   const uint32_t black = 0xff000000, white = 0xffffffff;
-  draw(canvas, {{0, 0, 0, 0, black}, {256, 0, 0, 0, white}, {256, 2, 0, 0, white},
-                {0, 0, 0, 0, black}, {256, 2, 0, 0, white}, {0, 2, 0, 0, black}});
+  draw(canvas, {{0, 0, 0, 0, black},
+                {256, 0, 0, 0, white},
+                {256, 2, 0, 0, white},
+                {0, 0, 0, 0, black},
+                {256, 2, 0, 0, white},
+                {0, 2, 0, 0, black}});
   for (int x = 0; x < 256; ++x) EXPECT_NEAR(double(canvas(x, 1) & 0xff), x, 1.01);
 }
 

@@ -9,7 +9,7 @@
 namespace whittle {
 namespace {
 
-constexpr double kTurn = 15;   ///< degrees a key
+constexpr double kTurn = 15;    ///< degrees a key
 constexpr double kNotches = 2;  ///< of the wheel, a key
 constexpr size_t kMostPicks = 2;
 
@@ -33,26 +33,41 @@ std::optional<CellView> after(std::optional<CellView> view) {
 
 std::optional<OrbitView> moved(Action action, const OrbitView& view) {
   switch (action) {
-    case Action::kFront: return looking_at(view, Side::kFront);
-    case Action::kBack: return looking_at(view, Side::kBack);
-    case Action::kRight: return looking_at(view, Side::kRight);
-    case Action::kLeft: return looking_at(view, Side::kLeft);
-    case Action::kTop: return looking_at(view, Side::kTop);
-    case Action::kBottom: return looking_at(view, Side::kBottom);
-    case Action::kIsometric: return looking_at(view, Side::kIsometric);
-    case Action::kDiagonal: return looking_at(view, Side::kDiagonal);
-    case Action::kTurnLeft: return turned(view, kTurn, 0);
-    case Action::kTurnRight: return turned(view, -kTurn, 0);
-    case Action::kTurnUp: return turned(view, 0, kTurn);
-    case Action::kTurnDown: return turned(view, 0, -kTurn);
-    case Action::kZoomIn: return zoomed(view, wheel_factor(kNotches), view.target);
-    case Action::kZoomOut: return zoomed(view, wheel_factor(-kNotches), view.target);
+    case Action::kFront:
+      return looking_at(view, Side::kFront);
+    case Action::kBack:
+      return looking_at(view, Side::kBack);
+    case Action::kRight:
+      return looking_at(view, Side::kRight);
+    case Action::kLeft:
+      return looking_at(view, Side::kLeft);
+    case Action::kTop:
+      return looking_at(view, Side::kTop);
+    case Action::kBottom:
+      return looking_at(view, Side::kBottom);
+    case Action::kIsometric:
+      return looking_at(view, Side::kIsometric);
+    case Action::kDiagonal:
+      return looking_at(view, Side::kDiagonal);
+    case Action::kTurnLeft:
+      return turned(view, kTurn, 0);
+    case Action::kTurnRight:
+      return turned(view, -kTurn, 0);
+    case Action::kTurnUp:
+      return turned(view, 0, kTurn);
+    case Action::kTurnDown:
+      return turned(view, 0, -kTurn);
+    case Action::kZoomIn:
+      return zoomed(view, wheel_factor(kNotches), view.target);
+    case Action::kZoomOut:
+      return zoomed(view, wheel_factor(-kNotches), view.target);
     case Action::kProjection: {
       OrbitView other = view;
       other.orthographic = !view.orthographic;
       return other;
     }
-    default: return std::nullopt;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -64,15 +79,26 @@ bool change_look(Action action, Look& look) {
       shading.style = after(style_choices(), shading.style);
       if (shading.style == Style::kOpenscad) shading.shadows = false;
       return true;
-    case Action::kQuality: shading.quality = after(quality_choices(), shading.quality); return true;
+    case Action::kQuality:
+      shading.quality = after(quality_choices(), shading.quality);
+      return true;
     case Action::kShadows:
       shading.shadows = !shading.shadows && shading.style != Style::kOpenscad;
       return true;
-    case Action::kGround: shading.ground = !shading.ground; return true;
-    case Action::kPass: look.pass = after(pass_choices(), look.pass); return true;
-    case Action::kCells: look.cells = after(look.cells); return true;
-    case Action::kColors: shading.scheme = after(shading.scheme); return true;
-    default: return false;
+    case Action::kGround:
+      shading.ground = !shading.ground;
+      return true;
+    case Action::kPass:
+      look.pass = after(pass_choices(), look.pass);
+      return true;
+    case Action::kCells:
+      look.cells = after(look.cells);
+      return true;
+    case Action::kColors:
+      shading.scheme = after(shading.scheme);
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -100,21 +126,40 @@ Effect act(Action action, ViewerState& state) {
   }
   if (change_look(action, state.look)) return Effect::kPaint;
   switch (action) {
-    case Action::kFit: return state.view ? Effect::kFit : Effect::kNone;
-    case Action::kReset: return Effect::kReset;
-    case Action::kNextFile: return step_file(state, 1);
-    case Action::kPreviousFile: return step_file(state, state.files.size() - 1);
-    case Action::kReload: return Effect::kLoad;
-    case Action::kSave: return Effect::kSave;
-    case Action::kSaveWithoutBackground: return Effect::kSaveWithoutBackground;
-    case Action::kCopyCamera: return Effect::kCopyCamera;
-    case Action::kCopyCommand: return Effect::kCopyCommand;
-    case Action::kQuit: return Effect::kQuit;
-    case Action::kHelp: state.shows_help = !state.shows_help; break;
-    case Action::kLookPanel: state.shows_look = !state.shows_look; break;
-    case Action::kPickPanel: state.shows_picks = !state.shows_picks; break;
-    case Action::kClearPicks: state.picks.clear(); break;
-    default: break;
+    case Action::kFit:
+      return state.view ? Effect::kFit : Effect::kNone;
+    case Action::kReset:
+      return Effect::kReset;
+    case Action::kNextFile:
+      return step_file(state, 1);
+    case Action::kPreviousFile:
+      return step_file(state, state.files.size() - 1);
+    case Action::kReload:
+      return Effect::kLoad;
+    case Action::kSave:
+      return Effect::kSave;
+    case Action::kSaveWithoutBackground:
+      return Effect::kSaveWithoutBackground;
+    case Action::kCopyCamera:
+      return Effect::kCopyCamera;
+    case Action::kCopyCommand:
+      return Effect::kCopyCommand;
+    case Action::kQuit:
+      return Effect::kQuit;
+    case Action::kHelp:
+      state.shows_help = !state.shows_help;
+      break;
+    case Action::kLookPanel:
+      state.shows_look = !state.shows_look;
+      break;
+    case Action::kPickPanel:
+      state.shows_picks = !state.shows_picks;
+      break;
+    case Action::kClearPicks:
+      state.picks.clear();
+      break;
+    default:
+      break;
   }
   return Effect::kNone;
 }

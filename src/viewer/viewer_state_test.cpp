@@ -108,10 +108,9 @@ TEST(ViewerStateTest, TheLastTwoPicksAreMeasured) {
   add_pick(picked_at({4, 5, 1}, {1, 0, 0}), state);
   ASSERT_EQ(state.picks.size(), 2u);
   EXPECT_TRUE(state.shows_picks);
-  const std::vector<std::string> expected{
-      "statement 7", "point   1, 1, 1", "normal  0, 0, 1", "",
-      "statement 7", "point   4, 5, 1", "normal  1, 0, 0", "",
-      "apart   5",   "along   3, 4, 0", "angle   90 degrees"};
+  const std::vector<std::string> expected{"statement 7", "point   1, 1, 1", "normal  0, 0, 1",   "",
+                                          "statement 7", "point   4, 5, 1", "normal  1, 0, 0",   "",
+                                          "apart   5",   "along   3, 4, 0", "angle   90 degrees"};
   EXPECT_EQ(pick_lines(state), expected);
 }
 
