@@ -17,6 +17,7 @@ constexpr CommandHelp kHelp = {
     "whittle", "Exact pictures of Constructive Solid Geometry, from OpenSCAD files.",
     "FILE -o OUT [options]      makes a picture, or a file to print or cut (the default)\n"
     "       whittle FILE... -o '{name}.png'    draws many files, several at a time\n"
+    "       whittle FILE...                    opens a window that shows it (H: its keys)\n"
     "       whittle info FILE                  says what is in a file\n"
     "       whittle pick FILE --at X,Y         says what is seen at a place\n"
     "       whittle measure FILE --at X,Y ...  measures where one points\n"

@@ -110,6 +110,10 @@ Effect step_file(ViewerState& state, size_t by) {
   return Effect::kLoad;
 }
 
+std::string name_of(const PickedPoint& picked) {
+  return picked.place.empty() ? fmt::format("statement {}", picked.answer.id) : picked.place;
+}
+
 std::string text_of(Vec3 v) {
   const auto number = [](double x) { return std::fabs(x) < 1e-12 ? 0.0 : x; };
   return fmt::format("{:.6g}, {:.6g}, {:.6g}", number(v.x), number(v.y), number(v.z));
@@ -174,12 +178,17 @@ void add_pick(PickedPoint picked, ViewerState& state) {
   state.shows_picks = true;
 }
 
+std::string pick_text(const PickedPoint& picked) {
+  const Vec3 p = picked.answer.point;
+  return fmt::format("{}: {:.6g},{:.6g},{:.6g}{}{}", name_of(picked), p.x, p.y, p.z,
+                     picked.statement.empty() ? "" : " ", picked.statement);
+}
+
 std::vector<std::string> pick_lines(const ViewerState& state) {
   std::vector<std::string> lines;
   for (const PickedPoint& picked : state.picks) {
     if (!lines.empty()) lines.emplace_back();
-    lines.push_back(picked.place.empty() ? fmt::format("statement {}", picked.answer.id)
-                                         : picked.place);
+    lines.push_back(name_of(picked));
     if (!picked.statement.empty()) lines.push_back(picked.statement);
     lines.push_back("point   " + text_of(picked.answer.point));
     lines.push_back("normal  " + text_of(picked.answer.normal));

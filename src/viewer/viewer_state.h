@@ -49,6 +49,9 @@ Effect act(Action action, ViewerState& state);
 /// A click: what is there is kept, or all is forgotten where nothing is.
 void add_pick(PickedPoint picked, ViewerState& state);
 
+/// A pick as a line that is printed: where it is written, and where it is.
+std::string pick_text(const PickedPoint& picked);
+
 /// What the panel says of the picks: of each where it is, of two how far they are apart.
 std::vector<std::string> pick_lines(const ViewerState& state);
 

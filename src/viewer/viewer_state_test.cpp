@@ -114,6 +114,14 @@ TEST(ViewerStateTest, TheLastTwoPicksAreMeasured) {
   EXPECT_EQ(pick_lines(state), expected);
 }
 
+TEST(ViewerStateTest, APickIsALine) {
+  PickedPoint picked = picked_at({1, 2.5, 1.0 / 3}, {0, 0, 1});
+  EXPECT_EQ(pick_text(picked), "statement 7: 1,2.5,0.333333");
+  picked.place = "part.csg:2:3";
+  picked.statement = "cube(10);";
+  EXPECT_EQ(pick_text(picked), "part.csg:2:3: 1,2.5,0.333333 cube(10);");
+}
+
 TEST(ViewerStateTest, AClickBesideTheSolidForgetsThem) {
   ViewerState state = some_state();
   add_pick(picked_at({9, 9, 9}, {0, 0, 1}), state);

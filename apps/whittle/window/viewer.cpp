@@ -77,7 +77,10 @@ Result<int> Viewer::run() {
     take_model();
     take_news();
     if (needs_drawing_ || overlay_frames_ > 0) draw();
-    handle(window_->wait(seconds_to_wait()));
+    const std::optional<double> seconds = seconds_to_wait();
+    handle(window_->wait(seconds));
+    // A line has had its time, or a clock goes on.
+    needs_drawing_ = needs_drawing_ || seconds > 0.0;
     if (was_saved_.exchange(false)) load(false);
   }
   if (arguments_.wants_statistics) say_lines(times_.text());
@@ -162,6 +165,7 @@ void Viewer::take_news() {
       picked.place = fmt::format("{}:{}:{}", file, answer.place.line, answer.place.column);
       picked.statement = statement_at(file, answer.place);
     }
+    if (answer.id != 0) print(pick_text(picked) + "\n");
     add_pick(std::move(picked), state_);
   }
   for (const Result<std::string>& saved : news.saved) {
