@@ -26,10 +26,14 @@ Result<std::unique_ptr<Drawable>> load_drawable(const RenderArguments& arguments
 
 LatestJob<LoadedModel>::Job loading_job(const RenderArguments& arguments, const Loading& loading,
                                         const std::string& file,
+                                        const std::optional<ViewOptions>& framing,
                                         const std::shared_ptr<LoadStage>& stage) {
-  return [&arguments, loading, file, stage](const std::stop_token& stop) {
+  return [&arguments, loading, file, framing, stage](const std::stop_token& stop) {
     const FileWatch::Time began = std::chrono::system_clock::now();
-    return LoadedModel{load_drawable(arguments, loading, file, *stage, stop), began};
+    LoadedModel loaded{load_drawable(arguments, loading, file, *stage, stop), began};
+    // Here it is found while the window opens.
+    if (framing && loaded.drawable) (*loaded.drawable)->renderer->camera(*framing);
+    return loaded;
   };
 }
 

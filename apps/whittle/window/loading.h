@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "../render_arguments.h"
@@ -24,10 +25,11 @@ struct LoadStage {
   Stopwatch watch;
 };
 
-/// Reads a file as the command line says, and makes it ready to be drawn. A stop ends openscad.
-/// `arguments` must outlive the job.
+/// Reads a file as the command line says, and makes it ready to be drawn: with a framing, so that
+/// it is known where the solid is. A stop ends openscad. `arguments` must outlive the job.
 LatestJob<LoadedModel>::Job loading_job(const RenderArguments& arguments, const Loading& loading,
                                         const std::string& file,
+                                        const std::optional<ViewOptions>& framing,
                                         const std::shared_ptr<LoadStage>& stage);
 
 }  // namespace whittle

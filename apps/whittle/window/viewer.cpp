@@ -107,7 +107,8 @@ void Viewer::load(bool is_another_file) {
   loading_.curves = asked_curves_;
   suit_style(state_.look.shading.style, loading_);
   framing_.tight = frames_tightly(state_.look.shading.style);
-  loader_->start(loading_job(arguments_, loading_, file, stage_));
+  const auto framing = is_another_file ? std::optional(framing_) : std::nullopt;
+  loader_->start(loading_job(arguments_, loading_, file, framing, stage_));
   needs_drawing_ = true;
 }
 
