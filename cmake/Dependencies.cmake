@@ -35,6 +35,16 @@ if(WHITTLE_PROGRAM)
   find_package(CLI11 REQUIRED)         # libcli11-dev: the command line
   find_package(nlohmann_json REQUIRED) # nlohmann-json3-dev: machine-readable output
 endif()
+if(WHITTLE_PROGRAM AND WHITTLE_VIEWER)
+  # libglfw3-dev, libx11-dev, libxext-dev: windows. Headers alone: they are opened when the first window is.
+  find_path(GLFW_INCLUDE GLFW/glfw3.h REQUIRED)
+  find_package(X11 REQUIRED)
+  # libimgui-dev, libstb-dev: what is written over a picture. Linked whole, so that it costs nothing when
+  # the program starts; of it only what draws nothing by itself.
+  find_path(IMGUI_INCLUDE imgui.h PATH_SUFFIXES imgui REQUIRED)
+  find_library(IMGUI_ARCHIVE libimgui.a REQUIRED)
+  find_library(STB_ARCHIVE libstb.a REQUIRED)
+endif()
 if(WHITTLE_VULKAN)
   # libvulkan-dev: headers; glslc: compiles the shaders; libvulkan-volk-dev: finds the loader when the
   # program runs.

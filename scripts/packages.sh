@@ -25,6 +25,11 @@ build_packages=(
   libvulkan-volk-dev  # the way to its functions when the program runs,
   libvulkan1          # and what that finds there
   glslc               # compiles shaders
+  libglfw3-dev        # the window: what opens it,
+  libx11-dev          # puts pixels into it,
+  libxext-dev         # and shares memory with the screen;
+  libimgui-dev        # what is written over the picture,
+  libstb-dev          # and its letters
 )
 
 test_packages=(
@@ -36,7 +41,8 @@ test_packages=(
   python3             # the benchmarks' page says what their results say
   povray              # an independent renderer to agree with
   openscad            # flattens .scad files; a picture to agree with
-  xvfb                # a display for it
+  xvfb                # a display for it, and for the window
+  xdotool             # the hand before the window
   make                # reads the dependencies that -d writes
   ffmpeg              # makes films, and says what is in them
   lowdown             # makes the manual page

@@ -20,22 +20,6 @@ using Json = nlohmann::ordered_json;
 /// A point lies on a wall if it is no farther from it than this share of the wall's radius.
 constexpr double kOnWall = 1e-6;
 
-/// The statement that stands at a place of a file; empty if the file cannot be read again.
-std::string statement_at(const std::string& path, SourceLocation where) {
-  constexpr size_t kEnough = 4096;
-  std::ifstream file(path, std::ios::binary);
-  std::string text;
-  for (uint32_t line = 0; line < where.line; ++line)
-    if (!std::getline(file, text)) return {};
-  if (where.column < 1 || where.column > text.size()) return {};
-  text.erase(0, where.column - 1);
-  text += '\n';
-  std::string more(kEnough, '\0');
-  file.read(more.data(), std::streamsize(more.size()));
-  text.append(more, 0, size_t(file.gcount()));
-  return quote_statement(text, 0);
-}
-
 Json parameters_of(const Shape& shape) {
   Json json = Json::object();
   if (const auto* cube = std::get_if<Cube>(&shape)) {
@@ -93,6 +77,21 @@ std::optional<double> wall_radius(const Shape& shape, Vec3 p, Vec3 normal) {
 }
 
 }  // namespace
+
+std::string statement_at(const std::string& path, SourceLocation where) {
+  constexpr size_t kEnough = 4096;
+  std::ifstream file(path, std::ios::binary);
+  std::string text;
+  for (uint32_t line = 0; line < where.line; ++line)
+    if (!std::getline(file, text)) return {};
+  if (where.column < 1 || where.column > text.size()) return {};
+  text.erase(0, where.column - 1);
+  text += '\n';
+  std::string more(kEnough, '\0');
+  file.read(more.data(), std::streamsize(more.size()));
+  text.append(more, 0, size_t(file.gcount()));
+  return quote_statement(text, 0);
+}
 
 void add_inquiry_options(CommandLine& line, InquiryArguments& a) {
   OptionGroup(line.app(), "Output").add_flag("--json", a.wants_json, "as JSON, one object a line");

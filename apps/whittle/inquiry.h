@@ -45,6 +45,9 @@ struct Picked {
   Vec3 point;  ///< world space
 };
 
+/// The statement that stands at a place of a file; empty if the file cannot be read again.
+std::string statement_at(const std::string& path, SourceLocation where);
+
 /// The statement whose surface is seen, and what it stands for.
 struct Subject {
   std::string place;      ///< file:line:column; empty if the text is not the user's

@@ -11,6 +11,7 @@
 #include "render_arguments.h"
 #include "render_files.h"
 #include "sheet_files.h"
+#include "window/show_window.h"
 
 namespace whittle {
 namespace {
@@ -19,6 +20,7 @@ constexpr CommandHelp kHelp = {
     "whittle", "Exact pictures of Constructive Solid Geometry, from OpenSCAD files.",
     "FILE -o OUT [options]      makes a picture, or a file to print or cut (the default)\n"
     "       whittle FILE... -o '{name}.png'    draws many files, several at a time\n"
+    "       whittle FILE...                    opens a window that shows it (H: its keys)\n"
     "       whittle info FILE                  says what is in a file\n"
     "       whittle pick FILE --at X,Y         says what is seen at a place\n"
     "       whittle measure FILE --at X,Y ...  measures where one points\n"
@@ -89,7 +91,12 @@ int run_many(const RenderArguments& all, const std::vector<Output>& outputs) {
   return draw_all(many, draw);
 }
 
-Result<int> run(RenderArguments& a) {
+Result<int> run(RenderArguments& a, Arguments arguments) {
+  if (a.outputs.empty() && !a.reference.file) {
+    if (Status possible = settle_device(a.renderer); !possible) return possible.error();
+    apply(a.subdivision, a.renderer);
+    return show_window(a, arguments);
+  }
   const Result<std::vector<Output>> outputs = choose_outputs(a);
   if (!outputs) return outputs.error();
   if (Status possible = settle_device(a.renderer); !possible) return possible.error();
@@ -114,7 +121,7 @@ int render_command(Arguments arguments) {
   RenderArguments a;
   add_options(line, a);
   if (const std::optional<int> code = line.parse(arguments)) return *code;
-  const Result<int> code = run(a);
+  const Result<int> code = run(a, arguments);
   return code ? *code : report(code.error());
 }
 

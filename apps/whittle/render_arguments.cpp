@@ -175,10 +175,6 @@ void add_options(CommandLine& line, RenderArguments& a) {
 }
 
 Result<std::vector<Output>> choose_outputs(const RenderArguments& a) {
-  if (a.outputs.empty() && !a.reference.file) {
-    return Error{ErrorKind::kUsage,
-                 "there is no window yet; give -o FILE, which may end in " + export_endings()};
-  }
   std::vector<Output> outputs;
   for (const std::string& path : a.outputs) {
     const auto is_standard = [](const Output& other) { return other.path == "-"; };

@@ -136,9 +136,14 @@ std::optional<int> run_program(const std::string& program, const char* const* ar
   std::atomic<pid_t>* const place = take_place();
   const pid_t child = start(program.c_str(), arguments, surroundings, place, error);
   siginfo_t ended{};
-  // Not yet reaped: as long as it is in the list its id is its own.
-  while (child > 0 && ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT) != 0 &&
-         errno == EINTR) {
+  // Not yet reaped: as long as it is in the list, or can be stopped, its id is its own.
+  {
+    const std::stop_callback stopped(surroundings.stop, [child] {
+      if (child > 0) ::kill(-child, SIGKILL);
+    });
+    while (child > 0 && ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT) != 0 &&
+           errno == EINTR) {
+    }
   }
   // Whoever kills programs ends this one too; nothing is to be said of how they ended.
   while (place && place->exchange(0) == kKilled) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 
 namespace whittle {
@@ -14,6 +15,7 @@ struct ProgramSurroundings {
   std::string input = "/dev/null";  ///< the file that it reads as standard input
   std::string folder{};             ///< where it runs; empty: here
   int input_descriptor = -1;        ///< not negative: an open file that stands for `input`
+  std::stop_token stop{};           ///< kills it, with what it has started
 };
 
 /// Runs a program without a shell. `arguments` end with a null. The status as of waitpid, or the

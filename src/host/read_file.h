@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct FlattenOptions {
   std::optional<std::string> parameter_file{};  ///< of the customizer, and a set in it
   std::optional<std::string> parameter_set{};
   std::vector<std::string> arguments{};  ///< more, passed on as they are
+  std::stop_token stop{};                ///< ends openscad; what is read then is an error
 };
 
 struct FileOptions {

@@ -163,7 +163,7 @@ Result<Flattened> flatten_scad(const std::string& path, const FlattenOptions& op
   for (const std::string& word : words) arguments.push_back(word.c_str());
   arguments.push_back(nullptr);
   int error = 0;
-  ProgramSurroundings surroundings{.messages = folder->messages()};
+  ProgramSurroundings surroundings{.messages = folder->messages(), .stop = options.stop};
   if (options.time) {
     if (Status written = write_frame(*source_text, *options.time, folder->program()); !written) {
       return failure(ErrorKind::kMachine, path, written.error().message);

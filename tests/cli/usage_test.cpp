@@ -62,12 +62,22 @@ TEST_F(Usage, AWordThatIsNoFileIsNoCommandEither) {
             "compare, bench, model, devices, pick, cast, measure, slice\nTry 'whittle --help'.\n");
 }
 
-TEST_F(Usage, WithoutAnOutputItSaysThatThereIsNoWindow) {
+TEST_F(Usage, WithoutAnOutputAndADisplayItSaysThatThereIsNoWindow) {
   const Ended missing = run({"part.csg"});
-  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_EQ(missing.exit_code, WHITTLE_HAS_VIEWER ? 3 : 2);
   EXPECT_EQ(missing.err,
-            "whittle: there is no window yet; give -o FILE, which may end in .png, .exr, .stl, "
-            ".off, .obj, .3mf, .amf, .svg, .dxf, .gif, .apng, .mp4 or .webm\n");
+            std::string("whittle: ") +
+                (WHITTLE_HAS_VIEWER ? "there is no display for a window"
+                                    : "this whittle was built without its window") +
+                "; give -o FILE, which may end in .png, .exr, .stl, .off, .obj, .3mf, .amf, .svg, "
+                ".dxf, .gif, .apng, .mp4 or .webm\n");
+}
+
+TEST_F(Usage, AWindowMakesNoFiles) {
+  if (!WHITTLE_HAS_VIEWER) return;
+  const Ended animated = run({"part.csg", "--summary", "all"});
+  EXPECT_EQ(animated.exit_code, 2);
+  EXPECT_EQ(animated.err, "whittle: --summary is for files that are made; give -o FILE\n");
 }
 
 TEST_F(Usage, TheEndingOfTheOutputMustBeKnown) {

@@ -73,6 +73,8 @@ pid_t ProgramTest::start(const std::vector<std::string>& arguments, const RunSet
 
   const pid_t child = ::fork();
   if (child != 0) return child;
+  // Nobody is there who could close a window.
+  ::unsetenv("DISPLAY");
   ::dup2(in, STDIN_FILENO);
   ::dup2(err, STDERR_FILENO);
   ::dup2(out, STDOUT_FILENO);
