@@ -95,7 +95,7 @@ class Caster {
     for (size_t i = 0; i < rays.size(); ++i) {
       const Hit& hit = hits_[i];
       if (hit.hit()) {
-        const Vec3 n{double(hit.normal.x), double(hit.normal.y), double(hit.normal.z)};
+        const Vec3 n = to_double(hit.normal);
         found_.all.push_back({double(hit.distance), hit.id, dot(n, rays[i].direction) < 0, n});
       }
       found_.ends.push_back(found_.all.size());

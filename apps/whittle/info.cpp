@@ -11,6 +11,7 @@
 #include "command_line.h"
 #include "commands.h"
 #include "console.h"
+#include "json_of.h"
 #include "lower/lower.h"
 #include "mass.h"
 #include "model/instances.h"
@@ -69,13 +70,9 @@ Result<Info> gather(const Model& model) {
   return info;
 }
 
-nlohmann::ordered_json to_json(Vec3 v) {
-  return {v.x, v.y, v.z};
-}
-
 nlohmann::ordered_json to_json(const Box& box) {
   if (box.is_empty()) return nullptr;
-  return {{"lo", to_json(box.lo)}, {"hi", to_json(box.hi)}};
+  return {{"lo", json_of(box.lo)}, {"hi", json_of(box.hi)}};
 }
 
 std::string describe_json(const Read& read, const Info& info, const MassArguments& mass) {

@@ -67,8 +67,7 @@ std::optional<double> scale_across(const Affine& map) {
   return a;
 }
 
-/// The radius at which a point at distance `across` from the axis lies on a wall of radius r, or on
-/// its facets.
+/// Whether a point at distance `across` from the axis lies on a wall of radius r, or on its facets.
 bool is_on_wall(double across, double r, int facets) {
   const double least = facets > 0 ? r * std::cos(std::numbers::pi / facets) : r;
   return across >= least - kOnWall * r && across <= r + kOnWall * r;
@@ -133,10 +132,6 @@ std::string text_of(double number) {
 
 std::string text_of(Vec3 v) {
   return fmt::format("{},{},{}", text_of(v.x), text_of(v.y), text_of(v.z));
-}
-
-Json json_of(Vec3 v) {
-  return {v.x, v.y, v.z};
 }
 
 Result<std::unique_ptr<Inquiry>> Inquiry::open(const InquiryArguments& a) {

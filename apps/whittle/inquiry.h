@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "json_of.h"
 #include "model/instances.h"
 
 namespace whittle {
@@ -56,7 +57,6 @@ struct Subject {
 /// A number, or three, in as many digits as are needed.
 std::string text_of(double number);
 std::string text_of(Vec3 v);
-nlohmann::ordered_json json_of(Vec3 v);
 
 class Inquiry {
  public:

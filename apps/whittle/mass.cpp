@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "json_of.h"
 #include "progress.h"
 
 namespace whittle {
@@ -62,10 +63,6 @@ void describe(const Mass& mass, const MassArguments& arguments, std::string& tex
   add("products", fmt::format("[{}] yz, xz, xy", digits(mass.products * density, bound)));
 }
 
-Json to_json(Vec3 v) {
-  return {v.x, v.y, v.z};
-}
-
 Json to_json(const Mass& mass, const MassArguments& arguments) {
   const double density = grams(arguments);
   Json json;
@@ -79,7 +76,7 @@ Json to_json(const Mass& mass, const MassArguments& arguments) {
     json["mass_bound"] = mass.volume.bound * density;
   }
   if (!has_center(mass)) return json;
-  json["centroid"] = to_json(mass.centroid);
+  json["centroid"] = json_of(mass.centroid);
   json["centroid_bound"] = mass.centroid_bound;
   const Vec3 m = mass.moments * density, p = mass.products * density;
   json["inertia"] = {{m.x, p.z, p.y}, {p.z, m.y, p.x}, {p.y, p.x, m.z}};

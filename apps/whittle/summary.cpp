@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "json_of.h"
+
 namespace whittle {
 namespace {
 
@@ -40,10 +42,6 @@ Box rounded(const Box& box) {
   };
   return {{round(box.lo.x), round(box.lo.y), round(box.lo.z)},
           {round(box.hi.x), round(box.hi.y), round(box.hi.z)}};
-}
-
-Json to_json(Vec3 v) {
-  return {v.x, v.y, v.z};
 }
 
 struct Clock {
@@ -98,12 +96,12 @@ std::string summary_json(const SummaryFacts& facts, const SummaryArguments& summ
     if (tells_box) {
       const Box box = rounded(geometry.box);
       json["geometry"]["bounding_box"] = {
-          {"min", to_json(box.lo)}, {"max", to_json(box.hi)}, {"size", to_json(box.size())}};
+          {"min", json_of(box.lo)}, {"max", json_of(box.hi)}, {"size", json_of(box.size())}};
     }
   }
   if (has(summary, "camera")) {
-    json["camera"] = {{"translation", to_json(facts.view.target)},
-                      {"rotation", to_json(facts.view.rotation_degrees)},
+    json["camera"] = {{"translation", json_of(facts.view.target)},
+                      {"rotation", json_of(facts.view.rotation_degrees)},
                       {"distance", facts.view.distance},
                       {"fov", facts.view.fov_degrees}};
   }

@@ -2,6 +2,7 @@
 #include <rapidcheck.h>
 
 #include "base/box.h"
+#include "base/disjoint_sets.h"
 #include "base/printable.h"
 #include "base/result.h"
 
@@ -73,6 +74,18 @@ TEST(Result, HoldsEitherAValueOrAnError) {
   EXPECT_EQ(*good, 3);
   ASSERT_FALSE(bad);
   EXPECT_EQ(bad.error().message, "no");
+}
+
+TEST(DisjointSets, WhatIsJoinedIsOneSetThatTheLastNumberStandsFor) {
+  DisjointSets sets(6);
+  sets.join(0, 1);
+  sets.join(2, 3);
+  sets.join(1, 3);
+  for (const uint32_t i : {0u, 1u, 2u, 3u}) EXPECT_EQ(sets.find(i), 3u);
+  EXPECT_EQ(sets.find(4), 4u);
+  EXPECT_EQ(sets.find(5), 5u);
+  sets.join(3, 0);
+  EXPECT_EQ(sets.find(0), 3u);
 }
 
 }  // namespace

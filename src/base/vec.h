@@ -26,6 +26,10 @@ struct Vec3T {
 using Vec3 = Vec3T<double>;
 using Vec3f = Vec3T<float>;
 
+constexpr Vec3 to_double(Vec3f v) {
+  return {double(v.x), double(v.y), double(v.z)};
+}
+
 template <class T>
 constexpr Vec3T<T> operator*(T s, Vec3T<T> v) {
   return v * s;

@@ -1,10 +1,10 @@
 #include "boundary/fill_faces.h"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "flat/corner_rings.h"
 
 namespace whittle {
@@ -55,24 +55,6 @@ class SheetPoints final : public NumberedPoints {
   std::vector<const ExactPoint*> points_;
 };
 
-/// Sets of corners that are joined.
-class Fans {
- public:
-  explicit Fans(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-
-  uint32_t find(uint32_t corner) {
-    while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
-    return corner;
-  }
-  void join(uint32_t a, uint32_t b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<uint32_t> parent_;
-};
-
 }  // namespace
 
 FilledFaces fill(const FaceOutlines& outlines, const ExactGeometry& geometry,
@@ -105,21 +87,21 @@ FilledFaces fill(const FaceOutlines& outlines, const ExactGeometry& geometry,
   });
 
   // Around a point, across the edges that meet there.
-  Fans fans(edges.size());
+  DisjointSets fans(edges.size());
   for (uint32_t i = 0; i < edges.size(); ++i) fans.join(i, result.next[edges[i].twin]);
+  std::vector<uint32_t> corners(edges.size(), UINT32_MAX);  // by what stands for a fan
   result.fans.resize(edges.size());
   for (uint32_t i = 0; i < edges.size(); ++i) {
-    const uint32_t fan = fans.find(i);
-    if (fan == i) {
-      result.fans[i] = uint32_t(result.points.size());
+    uint32_t& corner = corners[fans.find(i)];
+    if (corner == UINT32_MAX) {
+      corner = uint32_t(result.points.size());
       result.points.push_back(edges[i].from);
-    } else {
-      result.fans[i] = result.fans[fan];
     }
+    result.fans[i] = corner;
   }
   for (size_t i = 0; i < filled.size(); ++i)
-    for (const std::array<uint32_t, 3>& corners : filled[i])
-      result.triangles.push_back({corners, edges[firsts[i]].sheet});
+    for (const std::array<uint32_t, 3>& triangle : filled[i])
+      result.triangles.push_back({triangle, edges[firsts[i]].sheet});
   return result;
 }
 

@@ -2,28 +2,13 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "boundary/face_loops.h"
 
 namespace whittle {
 namespace {
-
-/// Sets that are joined (Tarjan 1975).
-class Sets {
- public:
-  explicit Sets(size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-
-  uint32_t find(uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(uint32_t a, uint32_t b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<uint32_t> parent_;
-};
 
 /// What is left, with its edges sewn together where triangles between them are left out.
 class Rest {
@@ -32,7 +17,7 @@ class Rest {
       : twins_(twins_of(mesh)), is_gone_(std::move(is_gone)), is_short_(std::move(is_short)) {}
 
   size_t count_holes() const {
-    Sets shells(is_gone_.size());
+    DisjointSets shells(is_gone_.size());
     for (uint32_t edge = 0; edge < twins_.size(); ++edge)
       if (!is_gone_[edge / 3]) shells.join(edge / 3, across(edge) / 3);
     std::vector<bool> is_seen(twins_.size());
@@ -52,7 +37,7 @@ class Rest {
   /// Shells that were there before.
   size_t missing_shells() const {
     const auto n = uint32_t(is_gone_.size());
-    Sets shells(n);
+    DisjointSets shells(n);
     for (uint32_t edge = 0; edge < 3 * n; ++edge) shells.join(edge / 3, twins_[edge] / 3);
     std::vector<bool> is_left(n);
     for (uint32_t t = 0; t < n; ++t)

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/disjoint_sets.h"
+
 namespace whittle {
 namespace {
 
@@ -13,9 +15,8 @@ using Loop = std::vector<uint32_t>;
 class Joiner {
  public:
   Joiner(std::span<const Vec3> points, std::span<const TriangleMesh::Triangle> triangles)
-      : points_(points) {
+      : points_(points), joined_(triangles.size()) {
     for (const TriangleMesh::Triangle& t : triangles) {
-      owner_.push_back(uint32_t(loops_.size()));
       loops_.push_back({t.corners.begin(), t.corners.end()});
       if (t.facet >= normals_.size()) normals_.resize(t.facet + 1);
       const Vec3 a = at(t.corners[0]);
@@ -26,13 +27,13 @@ class Joiner {
 
   /// Joins what these two triangles, of one facet, have become.
   void join(uint32_t one, uint32_t other, uint32_t facet, uint32_t from, uint32_t to) {
-    const uint32_t a = find(one), b = find(other);
+    const uint32_t a = joined_.find(one), b = joined_.find(other);
     if (a == b || loops_[a].size() + loops_[b].size() > kMostPieceCorners) return;
     std::optional<Loop> joined = united(loops_[a], loops_[b], from, to);
     if (!joined || !is_convex(*joined, normals_[facet])) return;
     loops_[a] = std::move(*joined);
     loops_[b].clear();
-    owner_[b] = a;
+    joined_.join(b, a);
   }
 
   std::vector<Loop> take() {
@@ -42,14 +43,6 @@ class Joiner {
 
  private:
   Vec3 at(uint32_t corner) const { return points_[corner]; }
-
-  uint32_t find(uint32_t triangle) {
-    while (owner_[triangle] != triangle) {
-      owner_[triangle] = owner_[owner_[triangle]];
-      triangle = owner_[triangle];
-    }
-    return triangle;
-  }
 
   /// `a` runs from `from` to `to`, and `b` back. None if they do so no more.
   static std::optional<Loop> united(const Loop& a, const Loop& b, uint32_t from, uint32_t to) {
@@ -89,7 +82,7 @@ class Joiner {
   }
 
   std::span<const Vec3> points_;
-  std::vector<uint32_t> owner_;
+  DisjointSets joined_;
   std::vector<Loop> loops_;
   std::vector<Vec3> normals_;
 };

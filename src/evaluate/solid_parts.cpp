@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/box.h"
+#include "base/disjoint_sets.h"
 #include "evaluate/convex_hull.h"
 #include "evaluate/convex_pieces.h"
 #include "evaluate/extrusions.h"
@@ -149,25 +150,21 @@ SolidPart part_of(const Shape& shape, bool wants_surface, Budget& budget) {
 }
 
 Shells shells_of(const SolidPart& part) {
-  std::vector<uint32_t> parent(part.points.size());
-  for (uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
-  const auto find = [&](uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  std::vector<bool> is_corner(parent.size());
+  const size_t count = part.points.size();
+  DisjointSets joined(count);
+  std::vector<bool> is_corner(count);
   for (const TriangleMesh::Triangle& t : part.triangles) {
     for (const uint32_t corner : t.corners) {
       is_corner[corner] = true;
-      parent[find(corner)] = find(t.corners[0]);
+      joined.join(corner, t.corners[0]);
     }
   }
   Shells shells;
-  std::vector<uint32_t> numbers(parent.size(), UINT32_MAX);
-  shells.of_point.resize(parent.size(), UINT32_MAX);
-  for (uint32_t i = 0; i < parent.size(); ++i) {
+  std::vector<uint32_t> numbers(count, UINT32_MAX);
+  shells.of_point.resize(count, UINT32_MAX);
+  for (uint32_t i = 0; i < count; ++i) {
     if (!is_corner[i]) continue;
-    uint32_t& number = numbers[find(i)];
+    uint32_t& number = numbers[joined.find(i)];
     if (number == UINT32_MAX) number = shells.count++;
     shells.of_point[i] = number;
   }

@@ -25,10 +25,6 @@ constexpr float kCosOtherFace = 0.9f;
 /// A mean of fewer rays is too rough.
 constexpr uint32_t kFewRays = 12;
 
-Vec3 to_double(Vec3f v) {
-  return {double(v.x), double(v.y), double(v.z)};
-}
-
 /// What the rays of a pixel found, in one number: how many they are, and above kRay the sum of the
 /// shares that they see. Sums over a block fit.
 constexpr uint32_t kRay = 1, kShareShift = 11;

@@ -10,10 +10,6 @@ constexpr size_t kTargetsPerTask = 4096;
 /// Each batch of hits is looked at from every light; many at a time, for backends that draw.
 constexpr size_t kShadowsPerBatch = size_t(1) << 20;
 
-Vec3 to_double(Vec3f v) {
-  return {double(v.x), double(v.y), double(v.z)};
-}
-
 }  // namespace
 
 Shadows::Shadows(Tracer& tracer, const Camera& camera, const ShadeSettings& settings,

@@ -42,8 +42,7 @@ bool is_inside(const Camera& camera, Tracer& tracer) {
   const Ray ray{camera.eye, camera.forward, 0};
   Hit hit;
   tracer.cast(std::span(&ray, 1), std::span(&hit, 1));
-  const Vec3 normal{double(hit.normal.x), double(hit.normal.y), double(hit.normal.z)};
-  return hit.hit() && dot(normal, ray.direction) > 0;
+  return hit.hit() && dot(to_double(hit.normal), ray.direction) > 0;
 }
 
 bool has_curves(const Model& model) {

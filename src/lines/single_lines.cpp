@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "lines/gather_parts.h"
+
 namespace whittle {
 namespace {
 
@@ -55,31 +57,19 @@ Result<std::vector<KindLine>> single_lines(std::span<const KindLine> lines, doub
   for (const KindLine& line : lines) segments.push_back(line.segment);
   const SegmentGrid grid(segments);
   LineBudget budget(limits);
-  constexpr size_t kChunk = 256;
-  std::vector<std::vector<KindLine>> chunks((lines.size() + kChunk - 1) / kChunk);
-  PerWorker<SegmentGrid::Visited> visited(workers);
-  workers.for_parts(chunks.size(), 1, [&](size_t first, size_t last, size_t worker) {
-    SegmentGrid::Visited& own = visited.of(worker, segments.size());
-    std::vector<Interval> gone;
-    for (size_t i = first * kChunk; i < std::min(lines.size(), last * kChunk); ++i) {
-      if (budget.is_spent()) return;
-      std::vector<KindLine>& out = chunks[i / kChunk];
-      const size_t before = out.size();
-      gone.clear();
-      const size_t pairs = grid.for_near(segments[i], own, [&](uint32_t other) {
-        if (other >= i) return;
-        const Interval interval = covered(segments[i], segments[other], apart);
-        if (interval.first < interval.second) gone.push_back(interval);
+  return gather_parts<KindLine>(
+      lines.size(), segments.size(), workers, budget,
+      [&](size_t i, SegmentGrid::Visited& visited, std::vector<KindLine>& out) {
+        const size_t before = out.size();
+        std::vector<Interval> gone;
+        const size_t pairs = grid.for_near(segments[i], visited, [&](uint32_t other) {
+          if (other >= i) return;
+          const Interval interval = covered(segments[i], segments[other], apart);
+          if (interval.first < interval.second) gone.push_back(interval);
+        });
+        add_rest(lines[i], gone, shortest, out);
+        budget.add(pairs, out.size() - before);
       });
-      add_rest(lines[i], gone, shortest, out);
-      budget.add(pairs, out.size() - before);
-    }
-  });
-  if (budget.is_spent()) return budget.error();
-  std::vector<KindLine> left;
-  for (const std::vector<KindLine>& chunk : chunks)
-    left.insert(left.end(), chunk.begin(), chunk.end());
-  return left;
 }
 
 }  // namespace whittle

@@ -81,9 +81,8 @@ class Asker {
   };
 
   Seen seen(size_t i) const {
-    const Vec3f n = hits_[i].normal;
     return {rays_[i].origin + rays_[i].direction * double(hits_[i].distance),
-            {double(n.x), double(n.y), double(n.z)}};
+            to_double(hits_[i].normal)};
   }
 
   const Projection& projection_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lines/gather_parts.h"
 #include "lines/segment_grid.h"
 
 namespace whittle {
@@ -84,34 +85,19 @@ Result<std::vector<LinePart>> split_lines(std::span<const DrawnLine> lines,
   const SegmentGrid grid(segments);
   const double slack = 1e-12 * (reach(lines) + reach(covering));
   LineBudget budget(limits);
-  constexpr size_t kChunk = 256;
-  std::vector<std::vector<LinePart>> chunks((lines.size() + kChunk - 1) / kChunk);
-  PerWorker<SegmentGrid::Visited> visited(workers);
-  workers.for_parts(chunks.size(), 1, [&](size_t first, size_t last, size_t worker) {
-    SegmentGrid::Visited& own = visited.of(worker, segments.size());
-    std::vector<double> places;
-    for (size_t i = first * kChunk; i < std::min(lines.size(), last * kChunk); ++i) {
-      const Cutter cutter(lines[i], projection, slack);
-      places.clear();
-      size_t pairs = 0;
-      if (cutter.length() > length)
-        pairs = grid.for_near({lines[i].a, lines[i].b}, own,
-                              [&](uint32_t number) { cutter.cut(covering[number], places); });
-      keep_apart(places, length / cutter.length());
-      // Before memory is taken for them.
-      budget.add(pairs, places.size() + 1);
-      if (budget.is_spent()) return;
-      add_parts(uint32_t(i), places, chunks[i / kChunk]);
-    }
-  });
-  if (budget.is_spent()) return budget.error();
-  size_t count = 0;
-  for (const std::vector<LinePart>& chunk : chunks) count += chunk.size();
-  std::vector<LinePart> parts;
-  parts.reserve(count);
-  for (const std::vector<LinePart>& chunk : chunks)
-    parts.insert(parts.end(), chunk.begin(), chunk.end());
-  return parts;
+  return gather_parts<LinePart>(
+      lines.size(), segments.size(), workers, budget,
+      [&](size_t i, SegmentGrid::Visited& visited, std::vector<LinePart>& out) {
+        const Cutter cutter(lines[i], projection, slack);
+        std::vector<double> places;
+        size_t pairs = 0;
+        if (cutter.length() > length)
+          pairs = grid.for_near({lines[i].a, lines[i].b}, visited,
+                                [&](uint32_t number) { cutter.cut(covering[number], places); });
+        keep_apart(places, length / cutter.length());
+        budget.add(pairs, places.size() + 1);
+        if (!budget.is_spent()) add_parts(uint32_t(i), places, out);
+      });
 }
 
 }  // namespace whittle

@@ -55,6 +55,25 @@ bool is_near_surface(const Scene& scene, Vec3 p, double distance) {
   return near;
 }
 
+/// Asks of points of a cell, no nearer to the surface than `tell`, whether what the cell says of
+/// them is what the winding number says. The number of points.
+int agreeing_points(const Scene& scene, const Box& cell, Truth truth, const Formula& formula,
+                    double tell, std::mt19937& random) {
+  std::uniform_real_distribution<double> share(0, 1);
+  int asked = 0;
+  for (int k = 0; k < 20; ++k) {
+    Vec3 p = cell.lo;
+    for (int axis = 0; axis < 3; ++axis) p[axis] += share(random) * cell.size()[axis];
+    if (is_near_surface(scene, p, tell)) continue;
+    const bool inside =
+        truth == Truth::kVaries ? contains(scene, formula, p) : truth == Truth::kTrue;
+    ++asked;
+    EXPECT_EQ(inside, scene.boundaries[0].winding(p) != 0)
+        << "at " << p.x << ' ' << p.y << ' ' << p.z;
+  }
+  return asked;
+}
+
 class LocalBspOf : public testing::TestWithParam<size_t> {};
 
 TEST_P(LocalBspOf, RandomCellsSaysWhatTheWindingNumberSays) {
@@ -85,17 +104,8 @@ TEST_P(LocalBspOf, RandomCellsSaysWhatTheWindingNumberSays) {
     const Truth truth = simplifier.simplify(scene->formula, cell, Expand::kAll, formula);
     varied += truth == Truth::kVaries;
     for (const Token token : formula) EXPECT_NE(token.kind(), TokenKind::kUnit);
-    for (int k = 0; k < 20; ++k) {
-      const Vec3 p = {cell.lo.x + share(random) * cell.size().x,
-                      cell.lo.y + share(random) * cell.size().y,
-                      cell.lo.z + share(random) * cell.size().z};
-      if (is_near_surface(*scene, p, tell)) continue;
-      const bool inside =
-          truth == Truth::kVaries ? contains(*scene, formula, p) : truth == Truth::kTrue;
-      ++asked;
-      ASSERT_EQ(inside, scene->boundaries[0].winding(p) != 0)
-          << "cell " << i << " at " << p.x << ' ' << p.y << ' ' << p.z;
-    }
+    asked += agreeing_points(*scene, cell, truth, formula, tell, random);
+    ASSERT_FALSE(HasFailure()) << "cell " << i;
   }
   EXPECT_GT(asked, 20000);
   EXPECT_GT(varied, 50);
@@ -164,16 +174,8 @@ TEST_P(LocalBspOf, APartOfACellIsTheSameByWhatTheCellSays) {
     for (int k = splits; k < splits + 2; ++k)
       (random() % 2 ? cell.lo : cell.hi)[k % 3] = cell.center()[k % 3];
     const Truth truth = simplifier.simplify(whole, cell, Expand::kAll, part);
-    for (int k = 0; k < 20; ++k) {
-      const Vec3 p = {cell.lo.x + share(random) * cell.size().x,
-                      cell.lo.y + share(random) * cell.size().y,
-                      cell.lo.z + share(random) * cell.size().z};
-      if (is_near_surface(*scene, p, tell)) continue;
-      const bool inside =
-          truth == Truth::kVaries ? contains(*scene, part, p) : truth == Truth::kTrue;
-      ++asked;
-      ASSERT_EQ(inside, scene->boundaries[0].winding(p) != 0) << "cell " << i;
-    }
+    asked += agreeing_points(*scene, cell, truth, part, tell, random);
+    ASSERT_FALSE(HasFailure()) << "cell " << i;
   }
   EXPECT_GT(asked, 1000);
 }
@@ -243,16 +245,8 @@ TEST(LocalBsp, PartsBesideATwistedLineOfContact) {
     for (int k = 0; k < splits; ++k)
       (share(random) < 0.5 ? cell.lo : cell.hi)[k % 3] = cell.center()[k % 3];
     const Truth truth = simplifier.simplify(scene->formula, cell, Expand::kAll, formula);
-    for (int k = 0; k < 20; ++k) {
-      const Vec3 p = {cell.lo.x + share(random) * cell.size().x,
-                      cell.lo.y + share(random) * cell.size().y,
-                      cell.lo.z + share(random) * cell.size().z};
-      if (is_near_surface(*scene, p, 1e-7)) continue;
-      const bool inside =
-          truth == Truth::kVaries ? contains(*scene, formula, p) : truth == Truth::kTrue;
-      ++asked;
-      ASSERT_EQ(inside, scene->boundaries[0].winding(p) != 0) << "cell " << i;
-    }
+    asked += agreeing_points(*scene, cell, truth, formula, 1e-7, random);
+    ASSERT_FALSE(HasFailure()) << "cell " << i;
   }
   EXPECT_GT(asked, 30000);
 }

@@ -14,7 +14,7 @@ namespace whittle {
 
 /// The tight box of a solid (subdivide/solid_bounds.h); of one without end, or too large to be
 /// lowered, its bounds. On so many threads (0: all).
-Box tight_box(const Model& model, int threads = 0);
+Box tight_box(const Model& model, int threads);
 
 /// tight_box() on so many threads, for ReadOptions::solid_box.
 std::function<Box(const Model&)> box_maker(int threads);

@@ -108,7 +108,7 @@ Seen seen_by(const Ray& ray, const Hit& hit) {
   if (!hit.hit()) return {};
   const auto distance = double(hit.distance);
   return {hit.id, distance, to_point(ray.origin + ray.direction * distance),
-          to_point({double(hit.normal.x), double(hit.normal.y), double(hit.normal.z)})};
+          to_point(to_double(hit.normal))};
 }
 
 }  // namespace

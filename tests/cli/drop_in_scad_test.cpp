@@ -223,8 +223,14 @@ TEST_F(DropIn, OpenscadIsToldWhatConcernsIt) {
 }
 
 TEST_F(DropIn, AnOptionThatOpenscadDoesNotKnowIsOneLine) {
-  const Ended done = run({"choice.scad", "-o", "x.png", "--enable", "no-such-thing"});
-  if (done.exit_code == 0) GTEST_SKIP() << "an openscad with experiments";
+  const std::string fake = script(
+      "fake",
+      "echo \"unrecognised option '--enable'\" >&2; echo >&2; echo 'Usage: openscad file' >&2\n"
+      "for i in $(seq 57); do echo \"  --usage-$i arg  what\"; done >&2\n"
+      "exit 1\n");
+  const Ended done =
+      run({"choice.scad", "-o", "x.png", "--openscad", fake, "--enable", "no-such-thing"});
+  EXPECT_EQ(done.exit_code, 1);
   EXPECT_EQ(std::ranges::count(done.err, '\n'), 1) << done.err;
   EXPECT_LT(done.err.size(), 200u) << done.err;
 }

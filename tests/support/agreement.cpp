@@ -26,10 +26,6 @@ struct Looks {
   std::array<Hit, kLooks> hits;
 };
 
-Vec3 to_double(Vec3f v) {
-  return {double(v.x), double(v.y), double(v.z)};
-}
-
 Vec3 point_of(const Ray& ray, const Hit& hit) {
   return ray.origin + ray.direction * double(hit.distance);
 }

@@ -14,10 +14,6 @@
 namespace whittle {
 namespace {
 
-Vec3 to_double(Vec3f v) {
-  return {double(v.x), double(v.y), double(v.z)};
-}
-
 /// The hit of one ray through a model given as text.
 Hit look(const std::string& text, Vec3 eye, Vec3 direction) {
   const Model model = model_of(text);

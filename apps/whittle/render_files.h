@@ -1,0 +1,32 @@
+// From what was read to the files that show it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "console.h"
+#include "host/read_file.h"
+#include "render_arguments.h"
+
+namespace whittle {
+
+/// What a run has made so far.
+struct Made {
+  int code = kExitDone;
+  Status compared = Done{};                 ///< with --reference; everything else is still written
+  std::vector<std::string> targets, files;  ///< for make
+
+  void add(const std::vector<Output>& outputs, const Read& read) {
+    for (const Output& output : outputs) targets.push_back(output.path);
+    for (const std::string& file : read.files) {
+      if (std::ranges::find(files, file) == files.end()) files.push_back(file);
+    }
+  }
+};
+
+/// Pictures first: what is no solid to print may well be seen.
+Status render_still(RenderArguments& a, const std::vector<Output>& outputs, Made& made);
+
+Status render_frames(RenderArguments& a, const std::vector<Output>& outputs, Made& made);
+
+}  // namespace whittle
