@@ -150,8 +150,8 @@ bool StatementReader::admit_depth(SourceLocation where) {
                                         options_.limits.depth, limit_hint("depth")));
 }
 
-Modifiers StatementReader::read_modifiers() {
-  Modifiers modifiers;
+StatementModifiers StatementReader::read_modifiers() {
+  StatementModifiers modifiers;
   for (;; lexer_.advance()) {
     switch (lexer_.peek()) {
       case '%':
@@ -174,7 +174,7 @@ Modifiers StatementReader::read_modifiers() {
 
 /// False, and a mistake, if there are too many.
 bool StatementReader::report_statement(SyntaxNode node, const StatementType& type,
-                                       Modifiers modifiers) {
+                                       StatementModifiers modifiers) {
   if (syntax_->count() > std::min<size_t>(options_.limits.nodes, OpenStatement::kNone - 2)) {
     return lexer_.fail(lexer_.location(),
                        fmt::format("there are more statements than the limit of {}{}",
@@ -189,7 +189,7 @@ bool StatementReader::report_statement(SyntaxNode node, const StatementType& typ
 bool StatementReader::read_statement() {
   lexer_.peek();
   SyntaxNode syntax{.begin = uint32_t(lexer_.offset())};
-  const Modifiers modifiers = read_modifiers();
+  const StatementModifiers modifiers = read_modifiers();
   const SourceLocation where = lexer_.location();
   syntax.name = uint32_t(lexer_.offset());
   const std::string_view name = lexer_.identifier();

@@ -62,7 +62,7 @@ class StatementReader {
 
  private:
   bool read_statement();
-  Modifiers read_modifiers();
+  StatementModifiers read_modifiers();
   bool read_assignment(std::string_view name, SourceLocation where, SyntaxNode syntax);
   bool read_end_of_file();
   bool open_block();
@@ -70,7 +70,7 @@ class StatementReader {
   void close_outer();
   void add_to_outer(const OpenStatement& in_piece);
   bool admit_depth(SourceLocation where);
-  bool report_statement(SyntaxNode node, const StatementType& type, Modifiers modifiers);
+  bool report_statement(SyntaxNode node, const StatementType& type, StatementModifiers modifiers);
   bool open_children(const StatementType& type, OpenStatement open);
   void close_singles();
   bool can_append(const StatementReader& piece) const;

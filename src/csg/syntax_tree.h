@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "base/result.h"
-#include "csg/document_builder.h"
 #include "csg/statements.h"
 #include "whittle/options.h"
 
@@ -49,7 +48,7 @@ struct SyntaxNode {
   Form form = Form::kStatement;
   Body children = Body::kNone;
   Meaning meaning = Meaning::kUnion;  ///< of a statement
-  Modifiers modifiers{};
+  StatementModifiers modifiers{};
 
   /// Where children can stand. Precondition: `children` is kBraces.
   TextRange inside() const {
