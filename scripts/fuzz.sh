@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fuzzes the readers and the whole path to the picture (docs/testing.md):
 #
-#   scripts/fuzz.sh [--seconds N | --runs N] [--seed N] [--fast] [reader|flat|picture|mesh|boundary]
+#   scripts/fuzz.sh [--seconds N | --runs N] [--seed N] [--fast] [reader|text_edit|customizer|flat|picture|mesh|boundary]
 #
 # For N seconds (60 unless said), or for N executions. They run side by side unless one is
 # named. --fast leaves the sanitizers out. Inputs that reach new code gather in build/asan/new-NAME
@@ -12,14 +12,14 @@ root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)
 source "$root/scripts/setup.sh"
 
 usage() {
-  say "usage: scripts/fuzz.sh [--seconds N | --runs N] [--seed N] [--fast] [reader|flat|picture|mesh|boundary]"
+  say "usage: scripts/fuzz.sh [--seconds N | --runs N] [--seed N] [--fast] [reader|text_edit|customizer|flat|picture|mesh|boundary]"
   exit 2
 }
 
 limit=(-max_total_time=60)
 seed=0 # libFuzzer's word for one of its own choice
 preset=asan
-names=(reader flat picture mesh boundary)
+names=(reader text_edit customizer flat picture mesh boundary)
 while (($#)); do
   case $1 in
     --seconds | --runs | --seed)
@@ -32,7 +32,7 @@ while (($#)); do
       shift 2
       ;;
     --fast) preset=fuzz-fast && shift ;;
-    reader | flat | picture | mesh | boundary) names=("$1") && shift ;;
+    reader | text_edit | customizer | flat | picture | mesh | boundary) names=("$1") && shift ;;
     *) usage ;;
   esac
 done
@@ -58,6 +58,7 @@ start() {
   fi
   # A boundary takes longer the more there is in it, and few bodies meet in as many ways.
   if [[ $1 == boundary ]]; then options[0]=-max_len=40; fi
+  if [[ $1 == customizer ]]; then options[1]=-dict=tests/fuzz/customizer.dict; fi
   if [[ $1 == mesh ]]; then options[1]=-dict=tests/fuzz/mesh.dict; fi
   # Fewer frames for each allocation and a smaller quarantine make it faster.
   export ASAN_OPTIONS=malloc_context_size=2:quarantine_size_mb=32:${ASAN_OPTIONS:-}

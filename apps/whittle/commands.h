@@ -19,5 +19,7 @@ int pick_command(Arguments arguments);
 int cast_command(Arguments arguments);
 int measure_command(Arguments arguments);
 int slice_command(Arguments arguments);
+int params_command(Arguments arguments);
+int edit_command(Arguments arguments);
 
 }  // namespace whittle

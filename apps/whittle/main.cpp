@@ -32,11 +32,11 @@ struct Command {
   int (*run)(Arguments arguments);
 };
 
-constexpr Command kCommands[] = {{"info", info_command},       {"cells", cells_command},
-                                 {"compare", compare_command}, {"bench", bench_command},
-                                 {"model", model_command},     {"devices", devices_command},
-                                 {"pick", pick_command},       {"cast", cast_command},
-                                 {"measure", measure_command}, {"slice", slice_command}};
+constexpr Command kCommands[] = {
+    {"info", info_command},   {"cells", cells_command},   {"compare", compare_command},
+    {"bench", bench_command}, {"model", model_command},   {"devices", devices_command},
+    {"pick", pick_command},   {"cast", cast_command},     {"measure", measure_command},
+    {"slice", slice_command}, {"params", params_command}, {"edit", edit_command}};
 
 /// A word that may have been meant for a command: letters only, and no file is called so.
 bool looks_like_command(std::string_view word) {

@@ -26,6 +26,8 @@ constexpr CommandHelp kHelp = {
     "       whittle measure FILE --at X,Y ...  measures where one points\n"
     "       whittle cast FILE X,Y,Z DX,DY,DZ   says what rays meet\n"
     "       whittle slice FILE --z Z -o OUT    cuts a solid into layers\n"
+    "       whittle edit FILE --set PLACE=V    changes values in a .csg, and nothing else\n"
+    "       whittle params FILE.scad           lists what a program offers to be set\n"
     "       whittle cells FILE -o OUT.png      draws the cells over the model\n"
     "       whittle compare A.exr B.exr        compares the facts of two pictures\n"
     "       whittle bench FILE...              measures every stage\n"

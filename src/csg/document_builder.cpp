@@ -45,7 +45,7 @@ DocumentBuilder::DocumentBuilder(const std::string& file, const ReadOptions& opt
 }
 
 std::optional<Mistake> DocumentBuilder::add(const Statement& statement, std::string_view name,
-                                            Modifiers modifiers, bool is_dumped_text,
+                                            StatementModifiers modifiers, bool is_dumped_text,
                                             const OpenStatement& parent, OpenStatement& open) {
   std::vector<Node>& nodes = document_.model.nodes;
   // The first node is no statement but the file.

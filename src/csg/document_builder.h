@@ -21,11 +21,6 @@
 
 namespace whittle {
 
-/// What stands before a statement.
-struct Modifiers {
-  bool background = false, highlight = false, root = false, disabled = false;
-};
-
 /// A statement whose children are being read.
 struct OpenStatement {
   static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
@@ -61,8 +56,9 @@ class DocumentBuilder {
   void count(Meaning meaning) { document_.model.statement_count += has_id(meaning); }
 
   /// Adds a node and sets what `open` says about it and about what it will hold.
-  std::optional<Mistake> add(const Statement& statement, std::string_view name, Modifiers modifiers,
-                             bool is_dumped_text, const OpenStatement& parent, OpenStatement& open);
+  std::optional<Mistake> add(const Statement& statement, std::string_view name,
+                             StatementModifiers modifiers, bool is_dumped_text,
+                             const OpenStatement& parent, OpenStatement& open);
 
   /// Ends a node, all of whose children are read, and simplifies it where neither the solid nor an
   /// owner of its surface can change.

@@ -62,6 +62,9 @@ class CsgLexer {
   /// How many bytes of the text are before the cursor.
   size_t offset() const { return static_cast<size_t>(next_ - begin_); }
 
+  /// Goes on at a byte of the text. Lines and columns count from there.
+  void skip_to(size_t offset) { next_ = line_start_ = begin_ + offset; }
+
   /// A place to come back to.
   struct Mark {
     const char* next;

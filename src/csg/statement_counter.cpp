@@ -7,7 +7,7 @@
 namespace whittle {
 
 void StatementCounter::count(const StatementType& type, std::string_view name,
-                             const Modifiers& modifiers) {
+                             const StatementModifiers& modifiers) {
   marks_.background += modifiers.background;
   marks_.highlight += modifiers.highlight;
   marks_.root += modifiers.root;

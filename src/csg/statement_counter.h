@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "csg/document_builder.h"
 #include "csg/statements.h"
 #include "model/statement_counts.h"
 
@@ -17,7 +16,7 @@ namespace whittle {
 class StatementCounter {
  public:
   /// A statement, dropped or not.
-  void count(const StatementType& type, std::string_view name, const Modifiers& modifiers);
+  void count(const StatementType& type, std::string_view name, const StatementModifiers& modifiers);
 
   /// All that another has counted.
   void add(const StatementCounter& other);

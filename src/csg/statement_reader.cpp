@@ -26,6 +26,13 @@ StatementReader::StatementReader(const std::string& file, const ReadOptions& opt
   stack_.push_back(builder_.root());
 }
 
+void StatementReader::begin_syntax(std::string_view text, SyntaxBuilder& syntax) {
+  begin(text);
+  syntax_ = &syntax;
+  // As under `*`: nothing of it is in the document.
+  stack_.back().drops_children = true;
+}
+
 bool StatementReader::read_until(size_t stop) {
   while (is_before(stop)) {
     const CsgLexer::Mark after_last = lexer_.mark();
@@ -99,6 +106,18 @@ bool StatementReader::open_block() {
   block.where = lexer_.location();
   block.is_block = true;
   if (!admit_depth(block.where)) return false;
+  if (syntax_) {
+    const auto at = uint32_t(lexer_.offset());
+    if (!report_statement({.begin = at,
+                           .name = at,
+                           .arguments = at,
+                           .body = at,
+                           .form = SyntaxNode::Form::kBlock,
+                           .children = SyntaxNode::Body::kBraces},
+                          find_statement("union"), {})) {
+      return false;
+    }
+  }
   lexer_.advance();
   stack_.push_back(block);
   return true;
@@ -107,6 +126,7 @@ bool StatementReader::open_block() {
 void StatementReader::close_braces() {
   const OpenStatement closed = stack_.back();
   stack_.pop_back();
+  if (syntax_) syntax_->close(lexer_.offset());
   if (closed.is_block) {
     stack_.back().operands = closed.operands;
   } else {
@@ -130,8 +150,8 @@ bool StatementReader::admit_depth(SourceLocation where) {
                                         options_.limits.depth, limit_hint("depth")));
 }
 
-Modifiers StatementReader::read_modifiers() {
-  Modifiers modifiers;
+StatementModifiers StatementReader::read_modifiers() {
+  StatementModifiers modifiers;
   for (;; lexer_.advance()) {
     switch (lexer_.peek()) {
       case '%':
@@ -152,9 +172,26 @@ Modifiers StatementReader::read_modifiers() {
   }
 }
 
+/// False, and a mistake, if there are too many.
+bool StatementReader::report_statement(SyntaxNode node, const StatementType& type,
+                                       StatementModifiers modifiers) {
+  if (syntax_->count() > std::min<size_t>(options_.limits.nodes, OpenStatement::kNone - 2)) {
+    return lexer_.fail(lexer_.location(),
+                       fmt::format("there are more statements than the limit of {}{}",
+                                   options_.limits.nodes, limit_hint("nodes")));
+  }
+  node.meaning = type.meaning;
+  node.modifiers = modifiers;
+  syntax_->open(node);
+  return true;
+}
+
 bool StatementReader::read_statement() {
-  const Modifiers modifiers = read_modifiers();
+  lexer_.peek();
+  SyntaxNode syntax{.begin = uint32_t(lexer_.offset())};
+  const StatementModifiers modifiers = read_modifiers();
   const SourceLocation where = lexer_.location();
+  syntax.name = uint32_t(lexer_.offset());
   const std::string_view name = lexer_.identifier();
   if (name.empty()) return expected("a statement");
   const StatementType& type = find_statement(name);
@@ -164,13 +201,15 @@ bool StatementReader::read_statement() {
                                           name));
   }
   const char c = lexer_.peek();
-  if (c == '=') return read_assignment(name, where);
+  if (c == '=') return read_assignment(name, where, syntax);
   if (c != '(') return expected(fmt::format("'(' after {}", quote(name)));
   lexer_.advance();
+  syntax.arguments = uint32_t(lexer_.offset());
   if (!read_arguments(lexer_, constants_, warnings_, type.meaning == Meaning::kText, arguments_)) {
     return false;
   }
 
+  if (syntax_ && !report_statement(syntax, type, modifiers)) return false;
   outer_is_used_ |= stack_.size() == 1;
   builder_.count(type.meaning);
   counter_.count(type, name, modifiers);
@@ -189,8 +228,11 @@ bool StatementReader::read_statement() {
 /// Reads what follows the arguments of a statement.
 bool StatementReader::open_children(const StatementType& type, OpenStatement open) {
   const char c = lexer_.peek();
+  using Body = SyntaxNode::Body;
   if (c == ';') {
+    if (syntax_) syntax_->set_body(lexer_.offset(), Body::kNone);
     lexer_.advance();
+    if (syntax_) syntax_->close(lexer_.offset());
     builder_.close(open, stack_.back());
     close_singles();
     return true;
@@ -201,6 +243,7 @@ bool StatementReader::open_children(const StatementType& type, OpenStatement ope
     return expected("';', '{' or a statement");
   }
   if (!admit_depth(open.where)) return false;
+  if (syntax_) syntax_->set_body(lexer_.offset(), open.single ? Body::kSingle : Body::kBraces);
   if (!open.single) lexer_.advance();
   if (is_childless(type.meaning) && !open.drops_children) {
     open.drops_children = true;
@@ -219,16 +262,26 @@ void StatementReader::close_singles() {
   while (stack_.back().single) {
     const OpenStatement closed = stack_.back();
     stack_.pop_back();
+    if (syntax_) syntax_->close(lexer_.offset());
     builder_.close(closed, stack_.back());
   }
 }
 
-bool StatementReader::read_assignment(std::string_view name, SourceLocation where) {
+bool StatementReader::read_assignment(std::string_view name, SourceLocation where,
+                                      SyntaxNode syntax) {
   lexer_.advance();
   arguments_.values.clear();
+  lexer_.peek();
+  syntax.arguments = uint32_t(lexer_.offset());
   if (!read_value(lexer_, constants_, warnings_, arguments_)) return false;
+  syntax.body = uint32_t(lexer_.offset());
   if (lexer_.peek() != ';') return expected_after_value(lexer_, "';'");
   lexer_.advance();
+  if (syntax_) {
+    syntax.form = SyntaxNode::Form::kAssignment;
+    if (!report_statement(syntax, find_statement("group"), {})) return false;
+    syntax_->close(lexer_.offset());
+  }
   if (stack_.back().node != 0) {
     if (stack_.back().single) return lexer_.fail(where, "expected a statement, not an assignment");
     if (!stack_.back().drops_children) {

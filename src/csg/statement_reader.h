@@ -17,6 +17,7 @@
 #include "csg/read_csg.h"
 #include "csg/statement_counter.h"
 #include "csg/statements.h"
+#include "csg/syntax_tree.h"
 #include "csg/values.h"
 #include "model/document.h"
 #include "model/warnings.h"
@@ -33,6 +34,8 @@ class StatementReader {
   /// Takes the text, all of it. It must outlive this object; what is in it is only looked at where
   /// it is read, not where pieces are appended.
   void begin(std::string_view text) { lexer_ = CsgLexer(text); }
+  /// The same, but nothing is made of the statements; `syntax` is told where they stand.
+  void begin_syntax(std::string_view text, SyntaxBuilder& syntax);
 
   /// Reads on to the first place that is not before `stop` and where a statement may begin. False:
   /// a mistake.
@@ -59,14 +62,15 @@ class StatementReader {
 
  private:
   bool read_statement();
-  Modifiers read_modifiers();
-  bool read_assignment(std::string_view name, SourceLocation where);
+  StatementModifiers read_modifiers();
+  bool read_assignment(std::string_view name, SourceLocation where, SyntaxNode syntax);
   bool read_end_of_file();
   bool open_block();
   void close_braces();
   void close_outer();
   void add_to_outer(const OpenStatement& in_piece);
   bool admit_depth(SourceLocation where);
+  bool report_statement(SyntaxNode node, const StatementType& type, StatementModifiers modifiers);
   bool open_children(const StatementType& type, OpenStatement open);
   void close_singles();
   bool can_append(const StatementReader& piece) const;
@@ -82,6 +86,7 @@ class StatementReader {
   Constants constants_;
   std::vector<OpenStatement> stack_;
   CsgArguments arguments_;
+  SyntaxBuilder* syntax_ = nullptr;  ///< null: a document is made
 
   // Of a piece: stack_[0] is what it stands in, whatever that is.
   bool is_piece_ = false;

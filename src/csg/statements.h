@@ -88,6 +88,11 @@ struct GivenFragments {
   bool set(std::string_view name, const Value& value);
 };
 
+/// What stands before a statement.
+struct StatementModifiers {
+  bool background = false, highlight = false, root = false, disabled = false;
+};
+
 /// A statement as written, its arguments sorted by parameter.
 struct Statement {
   const StatementType* type = nullptr;

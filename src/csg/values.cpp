@@ -227,10 +227,13 @@ bool read_arguments(CsgLexer& lexer, Constants& constants, Warnings& warnings, b
                         fmt::format("the statement has more than {} arguments", kMostArguments));
     }
     const auto index = static_cast<uint32_t>(values.size());
+    auto begin = static_cast<uint32_t>(lexer.offset());
     std::string_view name;
     bool has_value = false;
+    uint32_t end = 0;
     if (is_name_start(c)) {
       name = lexer.identifier();
+      end = static_cast<uint32_t>(lexer.offset());
       if (lexer.peek() == '=' && !lexer.is_followed_by('=')) {
         lexer.advance();
       } else {
@@ -240,13 +243,16 @@ bool read_arguments(CsgLexer& lexer, Constants& constants, Warnings& warnings, b
       }
     }
     if (!has_value) {
+      lexer.peek();
+      begin = static_cast<uint32_t>(lexer.offset());
       if (is_text && name == "text" && lexer.peek() == '"') {
         if (!read_string(lexer, arguments, true)) return false;
       } else if (!read_value(lexer, constants, warnings, arguments)) {
         return false;
       }
+      end = static_cast<uint32_t>(lexer.offset());
     }
-    arguments.list.push_back({name, index, where});
+    arguments.list.push_back({name, index, where, begin, end});
     c = lexer.peek();
     if (c == ',') {
       lexer.advance();

@@ -39,6 +39,7 @@ struct Argument {
   std::string_view name;  ///< empty if it has none
   uint32_t value = 0;     ///< index into CsgArguments::values
   SourceLocation where;
+  uint32_t begin = 0, end = 0;  ///< bytes of the value in the text
 };
 
 /// The values of a statement. One object serves all statements, so that nothing is allocated each

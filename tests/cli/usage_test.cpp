@@ -23,7 +23,7 @@ class Usage : public ProgramTest {
 
 TEST_F(Usage, HelpOfEveryCommandTellsUsageExamplesAndExitCodes) {
   for (const char* command : {"", "info", "cells", "compare", "bench", "model", "devices", "pick",
-                              "cast", "measure", "slice"}) {
+                              "cast", "measure", "slice", "params", "edit"}) {
     std::vector<std::string> arguments{"--help"};
     if (*command != '\0') arguments.insert(arguments.begin(), command);
     const Ended help = run(arguments);
@@ -59,7 +59,8 @@ TEST_F(Usage, AWordThatIsNoFileIsNoCommandEither) {
   EXPECT_EQ(typo.exit_code, 2);
   EXPECT_EQ(typo.err,
             "whittle: there is neither a file nor a command 'rander'; commands are: info, cells, "
-            "compare, bench, model, devices, pick, cast, measure, slice\nTry 'whittle --help'.\n");
+            "compare, bench, model, devices, pick, cast, measure, slice, params, edit\nTry "
+            "'whittle --help'.\n");
 }
 
 TEST_F(Usage, WithoutAnOutputAndADisplayItSaysThatThereIsNoWindow) {
@@ -241,8 +242,8 @@ TEST_F(Usage, UnknownOptionsAreRefused) {
 }
 
 TEST_F(Usage, EveryCommandRefusesWhatItDoesNotKnow) {
-  for (const char* command :
-       {"info", "compare", "bench", "model", "pick", "cast", "measure", "slice"}) {
+  for (const char* command : {"info", "compare", "bench", "model", "pick", "cast", "measure",
+                              "slice", "params", "edit"}) {
     const Ended refused = run({command, "--bogus"});
     EXPECT_EQ(refused.exit_code, 2) << command;
     EXPECT_NE(refused.err.find(std::string("Try 'whittle ") + command + " --help'."),
