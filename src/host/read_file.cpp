@@ -151,4 +151,11 @@ Result<Read> read_file(const std::string& path, const FileOptions& options) {
   return read_plain(path, options);
 }
 
+Result<Read> read_edited_text(const std::string& path, const std::string& text,
+                              const FileOptions& options) {
+  Result<Read> read = read_text_of(path, std::string_view(text), options);
+  if (read) read->files.insert(read->files.begin(), path);
+  return read;
+}
+
 }  // namespace whittle

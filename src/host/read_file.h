@@ -40,4 +40,8 @@ struct FileOptions {
 /// kInput, or kMachine if openscad cannot be run.
 Result<Read> read_file(const std::string& path, const FileOptions& options = {});
 
+/// Reads a text as that of the .csg file `path`, whatever the file holds.
+Result<Read> read_edited_text(const std::string& path, const std::string& text,
+                              const FileOptions& options = {});
+
 }  // namespace whittle

@@ -9,7 +9,7 @@ namespace {
 constexpr Modifiers kPlain{}, kControl{.control = true}, kShift{.shift = true},
     kBoth{.control = true, .shift = true};
 constexpr HelpGroup kView = HelpGroup::kView, kLook = HelpGroup::kLook, kFile = HelpGroup::kFile,
-                    kWindow = HelpGroup::kWindow;
+                    kEdit = HelpGroup::kEdit, kWindow = HelpGroup::kWindow;
 
 constexpr KeyBinding kBindings[] = {
     {key_of('1'), kPlain, Action::kFront, kView, "1", "from the front"},
@@ -45,6 +45,12 @@ constexpr KeyBinding kBindings[] = {
     {Key::kF12, kPlain, Action::kSave, kFile, "F12", "save the picture as .png"},
     {Key::kF12, kControl, Action::kSaveWithoutBackground, kFile, "Ctrl+F12",
      "without its background"},
+
+    {key_of('E'), kPlain, Action::kTreePanel, kEdit, "E", "panel: the statements of a .csg"},
+    {key_of('Z'), kControl, Action::kUndo, kEdit, "Ctrl+Z", "undo"},
+    {key_of('Z'), kBoth, Action::kRedo, kEdit, "Ctrl+Shift+Z", "redo"},
+    {key_of('Y'), kControl, Action::kRedo, kEdit, "Ctrl+Y", ""},
+    {key_of('S'), kControl, Action::kSaveText, kEdit, "Ctrl+S", "save the .csg"},
 
     {key_of('C'), kControl, Action::kCopyCamera, kWindow, "Ctrl+C",
      "copy and print the camera, for --camera"},
@@ -103,6 +109,8 @@ const char* title_of(HelpGroup group) {
       return "Look";
     case HelpGroup::kFile:
       return "Files";
+    case HelpGroup::kEdit:
+      return "Editing";
     case HelpGroup::kWindow:
       break;
   }

@@ -68,6 +68,11 @@ enum class Action {
   kReload,
   kSave,
   kSaveWithoutBackground,
+  // The text.
+  kTreePanel,
+  kUndo,
+  kRedo,
+  kSaveText,
   // The window.
   kCopyCamera,
   kCopyCommand,
@@ -79,9 +84,10 @@ enum class Action {
 };
 
 /// What keys and gestures are sorted by in the help.
-enum class HelpGroup { kMouse, kView, kLook, kFile, kWindow };
-inline constexpr HelpGroup kHelpGroups[] = {HelpGroup::kMouse, HelpGroup::kView, HelpGroup::kLook,
-                                            HelpGroup::kFile, HelpGroup::kWindow};
+enum class HelpGroup { kMouse, kView, kLook, kFile, kEdit, kWindow };
+inline constexpr HelpGroup kHelpGroups[] = {HelpGroup::kMouse, HelpGroup::kView,
+                                            HelpGroup::kLook,  HelpGroup::kFile,
+                                            HelpGroup::kEdit,  HelpGroup::kWindow};
 
 struct KeyBinding {
   Key key;

@@ -144,6 +144,15 @@ Effect act(Action action, ViewerState& state) {
       return Effect::kSave;
     case Action::kSaveWithoutBackground:
       return Effect::kSaveWithoutBackground;
+    case Action::kTreePanel:
+      state.shows_tree = !state.shows_tree;
+      return state.shows_tree ? Effect::kOpenText : Effect::kNone;
+    case Action::kUndo:
+      return Effect::kUndo;
+    case Action::kRedo:
+      return Effect::kRedo;
+    case Action::kSaveText:
+      return Effect::kSaveText;
     case Action::kCopyCamera:
       return Effect::kCopyCamera;
     case Action::kCopyCommand:

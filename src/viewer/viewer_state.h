@@ -25,7 +25,7 @@ struct ViewerState {
   std::vector<std::string> files;
   size_t file = 0;                 ///< of them, the one that is shown
   std::vector<PickedPoint> picks;  ///< at most two, the latest last
-  bool shows_help = false, shows_look = false, shows_picks = false;
+  bool shows_tree = false, shows_help = false, shows_look = false, shows_picks = false;
 };
 
 /// What is to be done after an action, beside drawing the window again.
@@ -38,6 +38,10 @@ enum class Effect {
   kLoad,   ///< read the file
   kSave,
   kSaveWithoutBackground,
+  kOpenText,  ///< if it is not open
+  kUndo,
+  kRedo,
+  kSaveText,
   kCopyCamera,
   kCopyCommand,
   kQuit,

@@ -22,7 +22,26 @@ Result<std::unique_ptr<Drawable>> load_drawable(const RenderArguments& arguments
   return make_drawable(*std::move(read), arguments.renderer);
 }
 
+Result<std::unique_ptr<Drawable>> text_drawable(const RenderArguments& arguments,
+                                                const Loading& loading, const std::string& file,
+                                                const std::string& text, LoadStage& stage) {
+  Result<Read> read = with_limit_option(read_edited_text(file, text, read_options(loading)));
+  if (!read) return read.error();
+  stage.what = "preparing";
+  return make_drawable(*std::move(read), arguments.renderer);
+}
+
 }  // namespace
+
+LatestJob<LoadedModel>::Job text_loading_job(const RenderArguments& arguments,
+                                             const Loading& loading, const std::string& file,
+                                             std::string text,
+                                             const std::shared_ptr<LoadStage>& stage) {
+  return [&arguments, loading, file, text = std::move(text), stage](const std::stop_token&) {
+    const FileWatch::Time began = std::chrono::system_clock::now();
+    return LoadedModel{text_drawable(arguments, loading, file, text, *stage), began};
+  };
+}
 
 LatestJob<LoadedModel>::Job loading_job(const RenderArguments& arguments, const Loading& loading,
                                         const std::string& file,

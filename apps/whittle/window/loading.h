@@ -32,4 +32,10 @@ LatestJob<LoadedModel>::Job loading_job(const RenderArguments& arguments, const 
                                         const std::optional<ViewOptions>& framing,
                                         const std::shared_ptr<LoadStage>& stage);
 
+/// The same of a text that the file may not have yet.
+LatestJob<LoadedModel>::Job text_loading_job(const RenderArguments& arguments,
+                                             const Loading& loading, const std::string& file,
+                                             std::string text,
+                                             const std::shared_ptr<LoadStage>& stage);
+
 }  // namespace whittle

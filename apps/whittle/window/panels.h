@@ -10,6 +10,8 @@
 
 namespace whittle {
 
+class Editing;
+
 /// Long work, as it is shown.
 struct WorkShown {
   std::string what;
@@ -21,6 +23,7 @@ struct WorkShown {
 struct PanelContext {
   ViewerState& state;
   Notices& notices;
+  Editing* editing = nullptr;  ///< null: no text is open
   std::optional<WorkShown> work;
   PictureSize size;
   double scale = 1;  ///< of lengths in pixels
@@ -35,6 +38,8 @@ void draw_panels(PanelContext& context);
 
 /// The keys and what the mouse does.
 void draw_help_panel(PanelContext& context);
+/// The statements of the file, and how they are edited.
+void draw_tree_panel(PanelContext& context);
 /// How the picture looks.
 void draw_look_panel(PanelContext& context);
 /// What was clicked at.

@@ -76,6 +76,7 @@ Result<int> Viewer::run() {
     // What came before the window could be woken.
     take_model();
     take_news();
+    load_edited();
     if (needs_drawing_ || overlay_frames_ > 0) draw();
     const std::optional<double> seconds = seconds_to_wait();
     handle(window_->wait(seconds));
@@ -97,7 +98,10 @@ std::optional<double> Viewer::seconds_to_wait() {
 
 void Viewer::load(bool is_another_file) {
   const std::string& file = state_.files[state_.file];
+  loads_edited_ = false;
   if (is_another_file) {
+    editing_.close();
+    state_.shows_tree = false;
     state_.view.reset();
     awaited_ = 0;
     if (window_) window_->set_title(title_of(file));
@@ -134,6 +138,8 @@ void Viewer::take_model() {
     say(fit.error().message);
     return;
   }
+  if (editing_.is_open() && !loads_edited_ && !editing_.follow_file())
+    notices_.tell("the file has changed beside what is edited here; Ctrl+S overwrites it");
   if (!loading_.quiet)
     for (const std::string& warning : drawable->read.warnings) notices_.tell(warning);
   has_model_ = true;
@@ -167,6 +173,7 @@ void Viewer::take_news() {
       picked.statement = statement_at(file, answer.place);
     }
     if (answer.id != 0) print(pick_text(picked) + "\n");
+    if (editing_.is_open()) editing_.choose(answer.place);
     add_pick(std::move(picked), state_);
   }
   for (const Result<std::string>& saved : news.saved) {
@@ -225,6 +232,16 @@ void Viewer::act_on(Action action) {
       return save(!arguments_.no_background);
     case Effect::kSaveWithoutBackground:
       return save(false);
+    case Effect::kOpenText:
+      return open_text();
+    case Effect::kUndo:
+      if (editing_.is_open()) editing_.undo();
+      return;
+    case Effect::kRedo:
+      if (editing_.is_open()) editing_.redo();
+      return;
+    case Effect::kSaveText:
+      return save_text();
     case Effect::kCopyCamera:
       return copy_camera();
     case Effect::kCopyCommand:
@@ -256,6 +273,29 @@ void Viewer::save(bool with_background) {
   SaveRequest wanted{rounded(*state_.view), state_.size, state_.look, path};
   wanted.look.shading.background = with_background;
   painter_->save(std::move(wanted));
+}
+
+void Viewer::open_text() {
+  const Status opened = editing_.open(state_.files[state_.file], loading_.limits);
+  if (opened) return;
+  state_.shows_tree = false;
+  notices_.tell(opened.error().message);
+}
+
+void Viewer::save_text() {
+  if (!editing_.is_open()) return;
+  const Status saved = editing_.save();
+  notices_.tell(saved ? "saved " + editing_.file() : saved.error().message);
+}
+
+/// Shows what was edited. One text at a time, so that a drag of a large model is seen too.
+void Viewer::load_edited() {
+  if (!editing_.is_behind() || loader_->is_busy()) return;
+  editing_.mark_shown();
+  stage_ = std::make_shared<LoadStage>();
+  loads_edited_ = true;
+  loader_->start(
+      text_loading_job(arguments_, loading_, editing_.file(), editing_.document().text(), stage_));
 }
 
 void Viewer::copy_camera() {

@@ -10,6 +10,7 @@
 
 #include "../commands.h"
 #include "../render_arguments.h"
+#include "editing.h"
 #include "loading.h"
 #include "notices.h"
 #include "overlay.h"
@@ -47,6 +48,9 @@ class Viewer {
   void show(bool is_moving);
   void fit();
   void save(bool with_background);
+  void open_text();
+  void save_text();
+  void load_edited();
   void copy_camera();
   void copy_command();
   PaintRequest request(bool is_moving);
@@ -65,7 +69,9 @@ class Viewer {
   const Curves asked_curves_;
   Loading loading_;  ///< with the curves of the present style
   ViewerState state_;
-  ViewOptions framing_;  ///< of the first view
+  Editing editing_;
+  bool loads_edited_ = false;  ///< what is loaded is the edited text
+  ViewOptions framing_;        ///< of the first view
   Notices notices_;
   std::optional<Painted> painted_;
   bool is_new_ = false;                ///< that was not yet drawn

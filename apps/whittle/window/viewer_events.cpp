@@ -147,6 +147,7 @@ PanelContext Viewer::panels() {
     work = WorkShown{stage_->what.load(), stage_->watch.milliseconds() / 1000, {}};
   return {.state = state_,
           .notices = notices_,
+          .editing = editing_.is_open() ? &editing_ : nullptr,
           .work = std::move(work),
           .size = state_.size,
           .scale = window_->scale()};
