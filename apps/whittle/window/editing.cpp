@@ -54,7 +54,8 @@ void Editing::close() {
   *this = Editing();
 }
 
-const std::vector<Editing::Row>& Editing::rows(const std::string& search) {
+const std::vector<Editing::Row>& Editing::rows() {
+  const std::string search = search_.data();
   if (rows_version_ == document_->version() && rows_search_ == search) return rows_;
   rows_version_ = document_->version();
   rows_search_ = search;

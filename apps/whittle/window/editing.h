@@ -2,6 +2,7 @@
 // of them, and whether the picture is behind.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -29,11 +30,14 @@ class Editing {
     uint32_t node = 0;
     uint32_t depth = 0;
   };
-  /// The statements in whose first bytes the words stand, in any case of letters; all of them for
-  /// no words. Made anew only when something has changed.
-  const std::vector<Row>& rows(const std::string& search);
+  /// The statements in whose first bytes the words stand that are searched for, in any case of
+  /// letters; all of them for no words. Made anew only when something has changed.
+  const std::vector<Row>& rows();
   /// A statement in a few words, on one line.
   std::string label(uint32_t node) const;
+
+  /// The words that are searched for, as they are typed.
+  std::array<char, 64>& search() { return search_; }
 
   /// Those that are chosen, in order.
   const std::vector<uint32_t>& chosen() const { return chosen_; }
@@ -65,6 +69,7 @@ class Editing {
   std::string file_;
   ReadLimits limits_;
   uint64_t shown_version_ = 0;
+  std::array<char, 64> search_{};
   std::vector<uint32_t> chosen_;
   std::optional<uint32_t> wanted_node_;
   std::vector<Row> rows_;

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -51,8 +52,25 @@ struct Overlay::State {
   std::vector<uint8_t> texels;
   int width = 0, height = 0;  ///< of the texture
   std::string copied;
+  // Of each button: pressed since the last frame, and let go after that.
+  std::array<bool, IM_ARRAYSIZE(ImGuiIO::MouseDown)> is_fresh{}, is_released{};
   double last_time = 0;
   Stopwatch watch;
+
+  /// What is pressed and let go between two frames is seen as pressed by the next one.
+  void press(int button, bool is_down) {
+    const auto i = size_t(button);
+    is_released[i] = !is_down && is_fresh[i];
+    if (is_released[i]) return;
+    is_fresh[i] = is_down;
+    ImGui::GetIO().MouseDown[button] = is_down;
+  }
+  void end_frame() {
+    for (size_t i = 0; i < is_fresh.size(); ++i) {
+      if (is_released[i]) ImGui::GetIO().MouseDown[i] = false;
+      is_fresh[i] = is_released[i] = false;
+    }
+  }
 };
 
 Overlay::Overlay(ScreenWindow& window, double scale) : state_(std::make_unique<State>()) {
@@ -109,7 +127,7 @@ void Overlay::feed(const InputEvent& event) {
       break;
     case Kind::kButton:
       if (event.code >= 0 && event.code < IM_ARRAYSIZE(io.MouseDown))
-        io.MouseDown[event.code] = event.is_down;
+        state_->press(event.code, event.is_down);
       break;
     case Kind::kWheel:
       io.MouseWheel += float(event.y);
@@ -138,6 +156,7 @@ void Overlay::build(PictureSize size, const std::function<void()>& build) {
   ImGui::NewFrame();
   build();
   ImGui::Render();
+  s.end_frame();
 }
 
 void Overlay::draw(const Pixels& pixels) const {

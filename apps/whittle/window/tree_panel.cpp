@@ -4,7 +4,6 @@
 #include <array>
 #include <cfloat>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -26,8 +25,8 @@ void say_unless(PanelContext& context, const Status& done) {
 }
 
 /// One statement a line; only those that are seen are made.
-void draw_rows(Editing& editing, const std::string& search) {
-  const std::vector<Editing::Row>& rows = editing.rows(search);
+void draw_rows(Editing& editing) {
+  const std::vector<Editing::Row>& rows = editing.rows();
   if (const std::optional<uint32_t> wanted = editing.take_wanted_node()) {
     const auto row =
         std::lower_bound(rows.begin(), rows.end(), *wanted,
@@ -168,17 +167,16 @@ void draw_tree_panel(PanelContext& context) {
   ImGui::SetNextWindowSize({width, float(context.size.height) - 2 * margin},
                            ImGuiCond_FirstUseEver);
   if (ImGui::Begin("Model", &context.state.shows_tree, ImGuiWindowFlags_NoSavedSettings)) {
-    static std::array<char, 64> search{};
     ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::InputTextWithHint("##search", "search", search.data(), search.size());
+    ImGui::InputTextWithHint("##search", "search", editing.search().data(),
+                             editing.search().size());
     const bool has_chosen = !editing.chosen().empty();
     const float below = has_chosen ? ImGui::GetContentRegionAvail().y / 2 : 0;
     ImGui::BeginChild("rows", {0, -below}, true, ImGuiWindowFlags_HorizontalScrollbar);
-    draw_rows(editing, search.data());
+    draw_rows(editing);
     ImGui::EndChild();
-    if (!editing.chosen().empty()) {
-      draw_structure_buttons(context, editing);
-    }
+    // After each of them the statement may be another, or none.
+    if (!editing.chosen().empty()) draw_structure_buttons(context, editing);
     if (!editing.chosen().empty()) draw_operations(context, editing, editing.chosen().front());
     if (!editing.chosen().empty()) draw_color(context, editing, editing.chosen().front());
     if (!editing.chosen().empty()) draw_numbers(context, editing, editing.chosen().front());
