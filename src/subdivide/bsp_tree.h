@@ -41,8 +41,15 @@ class BspTree {
   void divide(std::span<const uint32_t> polygons, uint32_t plane, CellPolygons& in);
   void take_sample(std::span<const uint32_t> polygons, const CellPolygons& in, Node& node);
 
+  /// A part of the cell that may be divided.
+  struct Open {
+    uint32_t first, last;  ///< into lists_
+    uint32_t parent, side;
+  };
+
   std::vector<Node> nodes_;
   uint32_t parts_ = 0;
+  std::vector<Open> open_;
   // Scratch: numbers of polygons.
   std::vector<uint32_t> list_, lists_, front_, back_, on_, other_planes_;
 };
