@@ -14,7 +14,7 @@ namespace {
 constexpr uint32_t kFewHalfSpaces = 24;
 /// Where a face has more parts than this that something reaches, many faces do: cells look at all
 /// of them together. After so many of them in a group the rest is not tried.
-constexpr size_t kMostParts = 64, kMostCrowded = 4;
+constexpr size_t kMostParts = 64, kMostCrowded = 40;
 /// What the parts of a face read of formulas before no more are made, and longer formulas cut it.
 constexpr size_t kMostRead = size_t(1) << 24;
 
@@ -120,7 +120,7 @@ void FaceMaker::face(const Unit& unit, uint32_t number, const Formula& context, 
   const PlacedHalfSpace& placed = half_spaces_[literal >> 1];
   if (plan_->is_whole[placed.plane] == 0) return;
   const bool may_leave = plan_->is_whole[placed.plane] == FacePlan::kSingle;
-  if (may_leave && !is_boundary && crowded_ >= kMostCrowded) {
+  if (may_leave && !is_boundary && crowded_ > kMostCrowded) {
     plan_->is_whole[placed.plane] = 0;
     return;
   }
@@ -176,10 +176,7 @@ bool FaceMaker::cut(uint32_t plane, uint32_t owner, bool may_leave) {
     }
     if (has_boundary(scene_, simpler_)) return false;
     read += part.context.size();
-    if (may_leave && ++seen > kMostParts) {
-      ++crowded_;
-      return false;
-    }
+    if (++seen == kMostParts && ++crowded_ > kMostCrowded && may_leave) return false;
     if (expanded_size(scene_, simpler_) > kFewHalfSpaces && read <= kMostRead &&
         !has_few_half_spaces(scene_, simpler_) && halve(part.polygon, plane, box))
       continue;
