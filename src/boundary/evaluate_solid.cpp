@@ -196,7 +196,8 @@ class SolidEvaluation {
     if (!collector_.collect(groups.size(), 1, maker_of, add_group, 0, kMade, pieces_) ||
         pairs > settings_.pairs)
       return too_much();
-    stats_.whole_planes = size_t(std::count(plan_.is_whole.begin(), plan_.is_whole.end(), 1));
+    stats_.whole_planes =
+        plan_.is_whole.size() - size_t(std::count(plan_.is_whole.begin(), plan_.is_whole.end(), 0));
     lap(stats_.faces_ms);
     return Done{};
   }

@@ -12,6 +12,9 @@ namespace {
 
 /// Faces that so few half-spaces reach are cut by these; the rest are cut in two first.
 constexpr uint32_t kFewHalfSpaces = 24;
+/// Where a face has more parts than this that something reaches, many faces do: cells look at all
+/// of them together. After so many of them in a group the rest is not tried.
+constexpr size_t kMostParts = 64, kMostCrowded = 40;
 /// What the parts of a face read of formulas before no more are made, and longer formulas cut it.
 constexpr size_t kMostRead = size_t(1) << 24;
 
@@ -35,6 +38,7 @@ FaceMaker::FaceMaker(const Scene& scene, const UnitBoxes& boxes, const ExactGeom
 
 void FaceMaker::make(const UnitGroup& group, Pieces& out) {
   leaves_ = Arena();
+  crowded_ = 0;
   for (uint32_t i = group.first; i < group.last; ++i) body(plan_->units[i], group.formula, out);
 }
 
@@ -114,7 +118,12 @@ void FaceMaker::face(const Unit& unit, uint32_t number, const Formula& context, 
                      Pieces& out) {
   const Literal literal = scene_.faces[unit.first_face + number].literal;
   const PlacedHalfSpace& placed = half_spaces_[literal >> 1];
-  if (!plan_->is_whole[placed.plane]) return;
+  if (plan_->is_whole[placed.plane] == 0) return;
+  const bool may_leave = plan_->is_whole[placed.plane] == FacePlan::kSingle;
+  if (may_leave && !is_boundary && crowded_ > kMostCrowded) {
+    plan_->is_whole[placed.plane] = 0;
+    return;
+  }
   list_around(unit, number);
   const PieceMaker::Polygon polygon = pieces_.begin_face(placed.plane, around_, cuts_.region());
   if (polygon.count == 0) return;
@@ -125,8 +134,8 @@ void FaceMaker::face(const Unit& unit, uint32_t number, const Formula& context, 
   } else {
     parts_.clear();
     parts_.push_back({polygon, context});
-    if (!cut(placed.plane, unit.id)) {
-      plan_->is_whole[placed.plane] = false;
+    if (!cut(placed.plane, unit.id, may_leave)) {
+      plan_->is_whole[placed.plane] = 0;
       return;
     }
   }
@@ -151,8 +160,8 @@ bool FaceMaker::halve(PieceMaker::Polygon polygon, uint32_t plane, const Box& bo
 
 /// Adds those parts of a face, beginning with all of it, that are boundary. False if that is not
 /// known.
-bool FaceMaker::cut(uint32_t plane, uint32_t owner) {
-  size_t read = 0;
+bool FaceMaker::cut(uint32_t plane, uint32_t owner, bool may_leave) {
+  size_t read = 0, seen = 0;
   while (!parts_.empty()) {
     Part part = std::move(parts_.back());
     parts_.pop_back();
@@ -167,6 +176,7 @@ bool FaceMaker::cut(uint32_t plane, uint32_t owner) {
     }
     if (has_boundary(scene_, simpler_)) return false;
     read += part.context.size();
+    if (++seen == kMostParts && ++crowded_ > kMostCrowded && may_leave) return false;
     if (expanded_size(scene_, simpler_) > kFewHalfSpaces && read <= kMostRead &&
         !has_few_half_spaces(scene_, simpler_) && halve(part.polygon, plane, box))
       continue;

@@ -17,8 +17,10 @@ namespace whittle {
 
 /// Whose faces are looked at, and what is known of them.
 struct FacePlan {
-  /// By plane: made here alone, so that cells leave it out.
+  /// By plane: 0, or it is made here alone, so that cells leave it out.
   std::vector<uint8_t> is_whole;
+  /// Of one face, which may be taken off the plan; of several, made at different times.
+  static constexpr uint8_t kSingle = 1, kShared = 2;
   std::vector<uint32_t> units;  ///< that have a face in such a plane
 };
 
@@ -61,7 +63,7 @@ class FaceMaker {
   };
   void body(uint32_t unit, std::span<const Token> formula, Pieces& out);
   void face(const Unit& unit, uint32_t face, const Formula& context, bool is_boundary, Pieces& out);
-  bool cut(uint32_t plane, uint32_t owner);
+  bool cut(uint32_t plane, uint32_t owner, bool may_leave);
   bool halve(PieceMaker::Polygon polygon, uint32_t plane, const Box& box);
   void add(PieceMaker::Polygon polygon, uint32_t plane, CellLink context, uint32_t owner);
   void list_around(const Unit& unit, uint32_t face);
@@ -77,6 +79,7 @@ class FaceMaker {
   LeafAnalysis analysis_;
   Arena leaves_;
   uint64_t pairs_ = 0;
+  uint32_t crowded_ = 0;  ///< faces of a group that so many others reach that cells are better
   // Of a body.
   Formula context_, simpler_;
   bool is_negated_ = false;

@@ -118,7 +118,7 @@ void leave_to_cells(const Scene& scene, std::span<const PlacedHalfSpace> half_sp
     for (uint32_t i = group.first; i < group.last; ++i) {
       const Unit& unit = scene.units[plan.units[i]];
       for (uint32_t k = 0; k < unit.face_count; ++k)
-        plan.is_whole[half_spaces[scene.faces[unit.first_face + k].literal >> 1].plane] = false;
+        plan.is_whole[half_spaces[scene.faces[unit.first_face + k].literal >> 1].plane] = 0;
     }
     return true;
   });
@@ -147,13 +147,15 @@ FacePlan plan_faces(const Scene& scene, std::span<const PlacedHalfSpace> half_sp
     shared.push_back({plane_of(face), face});
   }
   for (size_t plane = 0; plane < planes; ++plane)
-    plan.is_whole[plane] = only[plane] < kSeveral && is_convex(scene, only[plane]);
+    if (only[plane] < kSeveral && is_convex(scene, only[plane]))
+      plan.is_whole[plane] = FacePlan::kSingle;
   std::sort(shared.begin(), shared.end());
   for (auto first = shared.begin(); first != shared.end();) {
     const auto last = std::find_if(
         first, shared.end(), [&](const PlaneFace& other) { return other.plane != first->plane; });
     // Where there are bodies of triangles, one of the faces may be left to cells, so all are.
-    plan.is_whole[first->plane] = scene.boundaries.empty() && are_apart(scene, {first, last});
+    if (scene.boundaries.empty() && are_apart(scene, {first, last}))
+      plan.is_whole[first->plane] = FacePlan::kShared;
     first = last;
   }
   for (uint32_t u = 0; u < scene.units.size(); ++u) {

@@ -142,13 +142,15 @@ template <class IsBeside, class Visit>
 void Boundary::visit_leaves(const IsBeside& is_beside, const Visit& visit) const {
   std::array<uint32_t, kMostDepth> open;
   size_t count = 0;
-  open[count++] = 0;
+  const auto add = [&](uint32_t number) {
+    if (!is_beside(nodes_[number])) open[count++] = number;
+  };
+  add(0);
   while (count > 0) {
     const Node& node = nodes_[open[--count]];
-    if (is_beside(node)) continue;
     if (node.count == 0) {
-      open[count++] = node.first + 1;
-      open[count++] = node.first;
+      add(node.first + 1);
+      add(node.first);
       continue;
     }
     for (uint32_t i = node.first; i < node.first + node.count; ++i)

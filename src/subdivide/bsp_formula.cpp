@@ -37,14 +37,7 @@ void BspFormula::write(const Scene& scene, const CellPolygons& in, const BspTree
   find_forms(in, tree, windings);
   tokens_.clear();
   operands_ = 0;
-  enum class What : uint8_t { kNode, kBackHalf, kFrontHalf, kBehind, kInFront, kClose };
-  struct Task {
-    What what;
-    TokenKind around;  ///< the group it stands in
-    uint32_t depth;    ///< of that group
-    uint32_t at;       ///< a node; kClose: a header
-  };
-  std::vector<Task> tasks;
+  tasks_.clear();
   const auto literal = [&](const BspTree::Node& node, bool behind) {
     const CellPolygons::Plane& plane = in.planes[node.plane];
     const bool is_complement = scene.faces[plane.face].literal & 1;
@@ -59,18 +52,18 @@ void BspFormula::write(const Scene& scene, const CellPolygons& in, const BspTree
     const uint32_t depth = joins ? task.depth : task.depth + 1;
     if (!joins) {
       if (task.depth == 1) ++operands_;
-      tasks.push_back({What::kClose, kind, depth, uint32_t(tokens_.size())});
+      tasks_.push_back({What::kClose, kind, depth, uint32_t(tokens_.size())});
       tokens_.push_back(Token::make(kind, 0));
     }
     first.around = second.around = kind;
     first.depth = second.depth = depth;
-    tasks.push_back(second);
-    tasks.push_back(first);
+    tasks_.push_back(second);
+    tasks_.push_back(first);
   };
-  tasks.push_back({What::kNode, TokenKind::kAnd, 0, 0});
-  while (!tasks.empty()) {
-    const Task task = tasks.back();
-    tasks.pop_back();
+  tasks_.push_back({What::kNode, TokenKind::kAnd, 0, 0});
+  while (!tasks_.empty()) {
+    const Task task = tasks_.back();
+    tasks_.pop_back();
     if (task.what == What::kClose) {
       tokens_[task.at] = Token::make(task.around, uint32_t(tokens_.size()) - task.at);
       continue;
@@ -106,8 +99,8 @@ void BspFormula::write(const Scene& scene, const CellPolygons& in, const BspTree
           }
           case Form::kOnlyFront:
           case Form::kOnlyBack:
-            tasks.push_back({What::kNode, task.around, task.depth,
-                             node.child[forms_[task.at] == Form::kOnlyBack ? 1 : 0]});
+            tasks_.push_back({What::kNode, task.around, task.depth,
+                              node.child[forms_[task.at] == Form::kOnlyBack ? 1 : 0]});
             break;
           case Form::kBehind:
             alone(true);

@@ -40,9 +40,19 @@ class BspFormula {
     kBoth
   };
 
+  enum class What : uint8_t { kNode, kBackHalf, kFrontHalf, kBehind, kInFront, kClose };
+  /// Of a node, what is to be written of it; or the end of a group.
+  struct Task {
+    What what;
+    TokenKind around;  ///< the group it stands in
+    uint32_t depth;    ///< of that group
+    uint32_t at;       ///< a node; kClose: a header
+  };
+
   void find_forms(const CellPolygons& in, const BspTree& tree, const PartWindings& windings);
 
   std::vector<Form> forms_;  ///< by node
+  std::vector<Task> tasks_;
   Formula tokens_;
   uint32_t operands_ = 0;
 };

@@ -49,6 +49,7 @@ uint32_t BspTree::choose(std::span<const uint32_t> polygons, const CellPolygons&
         const double f = in.planes[plane].at(p);
         has_front |= f > in.slack;
         has_back |= f < -in.slack;
+        if (has_front && has_back) break;
       }
       cut += has_front && has_back;
       front += has_front && !has_back;
@@ -134,19 +135,15 @@ void BspTree::take_sample(std::span<const uint32_t> polygons, uint32_t parent,
 }
 
 void BspTree::build(CellPolygons& in) {
-  struct Open {
-    uint32_t first, last;  ///< into lists_
-    uint32_t parent, side;
-  };
   nodes_.clear();
   parents_.clear();
   parts_ = 0;
   lists_.clear();
   for (uint32_t i = 0; i < in.polygons.size(); ++i) lists_.push_back(i);
-  std::vector<Open> open{{0, uint32_t(lists_.size()), UINT32_MAX, 0}};
-  while (!open.empty()) {
-    const Open part = open.back();
-    open.pop_back();
+  open_.assign(1, {0, uint32_t(lists_.size()), UINT32_MAX, 0});
+  while (!open_.empty()) {
+    const Open part = open_.back();
+    open_.pop_back();
     uint32_t self;
     if (part.first == part.last) {
       self = kPart + parts_++;
@@ -163,8 +160,8 @@ void BspTree::build(CellPolygons& in) {
       lists_.insert(lists_.end(), front_.begin(), front_.end());
       const auto middle = uint32_t(lists_.size());
       lists_.insert(lists_.end(), back_.begin(), back_.end());
-      open.push_back({from, middle, self, 0});
-      open.push_back({middle, uint32_t(lists_.size()), self, 1});
+      open_.push_back({from, middle, self, 0});
+      open_.push_back({middle, uint32_t(lists_.size()), self, 1});
     }
     if (part.parent != UINT32_MAX) nodes_[part.parent].child[part.side] = self;
   }

@@ -44,9 +44,16 @@ class BspTree {
   void take_sample(std::span<const uint32_t> polygons, uint32_t parent, const CellPolygons& in,
                    Node& node);
 
+  /// A part of the cell that may be divided.
+  struct Open {
+    uint32_t first, last;  ///< into lists_
+    uint32_t parent, side;
+  };
+
   std::vector<Node> nodes_;
   uint32_t parts_ = 0;
   std::vector<uint32_t> parents_;  ///< of nodes; UINT32_MAX: the root has none
+  std::vector<Open> open_;
   // Scratch: numbers of polygons.
   std::vector<uint32_t> list_, lists_, front_, back_, on_, other_planes_;
 };

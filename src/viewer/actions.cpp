@@ -55,7 +55,7 @@ constexpr KeyBinding kBindings[] = {
     {key_of('C'), kControl, Action::kCopyCamera, kWindow, "Ctrl+C",
      "copy and print the camera, for --camera"},
     {key_of('C'), kBoth, Action::kCopyCommand, kWindow, "Ctrl+Shift+C",
-     "copy and print the command that makes this picture"},
+     "copy and print the command for this"},
     {Key::kTab, kPlain, Action::kLookPanel, kWindow, "Tab", "panel: how it looks"},
     {key_of('I'), kPlain, Action::kPickPanel, kWindow, "I", "panel: what was clicked at"},
     {key_of('X'), kPlain, Action::kClearPicks, kWindow, "X", "forget what was clicked at"},
@@ -70,7 +70,7 @@ std::vector<HelpLine> make_help_lines() {
   constexpr HelpGroup kMouse = HelpGroup::kMouse;
   std::vector<HelpLine> lines{
       {kMouse, "Left drag", "turn"},
-      {kMouse, "Right or middle drag, Shift+left drag", "move"},
+      {kMouse, "Right, middle or Shift+left drag", "move"},
       {kMouse, "Wheel", "closer and farther, where it points"},
       {kMouse, "Double click", "turn about this point"},
       {kMouse, "Click", "what is it; two clicks: how far apart"},

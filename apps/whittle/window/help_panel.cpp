@@ -1,42 +1,56 @@
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "panels.h"
 
 namespace whittle {
 namespace {
 
-void draw_group(HelpGroup group) {
-  ImGui::TextColored({1, 0.85f, 0.3f, 1}, "%s", title_of(group));
-  if (!ImGui::BeginTable(title_of(group), 2, ImGuiTableFlags_SizingFixedFit)) return;
-  for (const HelpLine& line : help_lines()) {
-    if (line.group != group) continue;
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(line.keys.c_str());
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(line.does.c_str());
+/// Between what stands side by side, letters.
+constexpr float kGap = 2;
+
+/// The widest keys of a group, pixels.
+float keys_width(HelpGroup group) {
+  float width = 0;
+  for (const HelpLine& line : help_lines())
+    if (line.group == group) width = std::max(width, ImGui::CalcTextSize(line.keys.c_str()).x);
+  return width;
+}
+
+/// Groups below one another.
+void draw_groups(std::span<const HelpGroup> groups) {
+  ImGui::BeginGroup();
+  for (const HelpGroup group : groups) {
+    if (group != groups.front()) ImGui::Spacing();
+    ImGui::TextColored({1, 0.85f, 0.3f, 1}, "%s", title_of(group));
+    // Counted from where the groups begin.
+    const float meaning = keys_width(group) + kGap * ImGui::GetFontSize() / 2;
+    for (const HelpLine& line : help_lines()) {
+      if (line.group != group) continue;
+      ImGui::TextUnformatted(line.keys.c_str());
+      ImGui::SameLine(meaning);
+      ImGui::TextUnformatted(line.does.c_str());
+    }
   }
-  ImGui::EndTable();
+  ImGui::EndGroup();
 }
 
 }  // namespace
 
 void draw_help_panel(PanelContext& context) {
-  const auto middle = ImVec2(float(context.size.width) / 2, float(context.size.height) / 2);
-  ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSizeConstraints({0, 0},
-                                      {float(context.size.width), float(context.size.height)});
+  const auto width = float(context.size.width), height = float(context.size.height);
+  ImGui::SetNextWindowPos({width / 2, height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {width, height});
+  ImGui::SetNextWindowFocus();
   constexpr int kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize |
                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove;
   if (ImGui::Begin("Help", nullptr, kFlags)) {
-    if (ImGui::BeginTable("columns", 2, ImGuiTableFlags_SizingFixedFit)) {
-      ImGui::TableNextColumn();
-      draw_group(HelpGroup::kMouse);
-      draw_group(HelpGroup::kView);
-      ImGui::TableNextColumn();
-      for (const HelpGroup group : {HelpGroup::kLook, HelpGroup::kFile, HelpGroup::kWindow})
-        draw_group(group);
-      ImGui::EndTable();
-    }
+    constexpr HelpGroup kLeft[] = {HelpGroup::kMouse, HelpGroup::kView};
+    constexpr HelpGroup kRight[] = {HelpGroup::kLook, HelpGroup::kFile, HelpGroup::kWindow};
+    draw_groups(kLeft);
+    ImGui::SameLine(0, kGap * ImGui::GetFontSize());
+    draw_groups(kRight);
   }
   ImGui::End();
 }

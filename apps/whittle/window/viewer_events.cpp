@@ -12,6 +12,8 @@ using Kind = InputEvent::Kind;
 
 /// Work that takes no longer is not worth a word.
 constexpr double kLongMilliseconds = 200;
+/// ImGui says what an event did one frame later.
+constexpr int kOverlayFrames = 2;
 /// Before there is a picture.
 constexpr uint32_t kNothingYet = 0xe8e8ec;
 
@@ -49,8 +51,7 @@ void Viewer::handle(const std::vector<InputEvent>& events) {
     handle(event);
   }
   if (overlay_ && !events.empty() && needs_overlay()) {
-    constexpr int kFrames = 2;
-    overlay_frames_ = kFrames;
+    overlay_frames_ = kOverlayFrames;
   }
   // All movements at once make one picture.
   const bool is_resized = state_.size != size_before;
@@ -158,7 +159,7 @@ bool Viewer::needs_overlay() {
 }
 
 void Viewer::draw() {
-  needs_drawing_ = false;
+  const bool is_changed = std::exchange(needs_drawing_, false);
   const Pixels pixels = window_->pixels();
   copy_picture(painted_ ? painted_->picture : Picture(), pixels);
   const bool has_overlay = needs_overlay();
@@ -171,7 +172,10 @@ void Viewer::draw() {
     if (context.wanted) act_on(*context.wanted);
   }
   shows_overlay_ = has_overlay;
-  overlay_frames_ = has_overlay ? std::max(overlay_frames_ - 1, 0) : 0;
+  // What has changed may need more room, which ImGui sees when it has drawn it.
+  overlay_frames_ = !has_overlay ? 0
+                    : is_changed ? kOverlayFrames
+                                 : std::max(overlay_frames_ - 1, 0);
   window_->show();
   if (painted_ && std::exchange(is_new_, false)) times_.shown(painted_->step);
 }
