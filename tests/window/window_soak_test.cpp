@@ -30,13 +30,20 @@ class WindowSoakTest : public DrivenWindow {
   }
   void save_anything() { write("part.csg", random_tree(random_())); }
   void do_anything() {
-    static constexpr const char* kKeys[] = {
-        "1",     "ctrl+1", "3",  "ctrl+3", "7",      "ctrl+7",
-        "9",     "0",      "4",  "6",      "8",      "2",
-        "plus",  "minus",  "5",  "f",      "Return", "s",
-        "t",     "l",      "g",  "p",      "c",      "k",
-        "Right", "Left",   "Up", "F5",     "ctrl+c", "ctrl+shift+c",
-        "Tab",   "i",      "x",  "h",      "space",  "a"};
+    static constexpr const char* kKeys[] = {"1",      "ctrl+1", "3",
+                                            "ctrl+3", "7",      "ctrl+7",
+                                            "9",      "0",      "4",
+                                            "6",      "8",      "2",
+                                            "plus",   "minus",  "5",
+                                            "f",      "Return", "s",
+                                            "t",      "l",      "g",
+                                            "p",      "c",      "k",
+                                            "Right",  "Left",   "Up",
+                                            "F5",     "ctrl+c", "ctrl+shift+c",
+                                            "Tab",    "i",      "x",
+                                            "h",      "space",  "a",
+                                            "e",      "ctrl+z", "ctrl+shift+z",
+                                            "ctrl+s"};
     const int x = number(0, 399), y = number(0, 299);
     switch (number(0, 9)) {
       case 0:
