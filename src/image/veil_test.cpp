@@ -7,7 +7,7 @@
 namespace whittle {
 namespace {
 
-constexpr int kSide = 4;
+constexpr int kVeilSide = 4;
 
 /// Every ray crosses the same level planes, at distances from the eye 50 above.
 class LevelsForTest : public SceneForTest {
@@ -43,7 +43,7 @@ struct Seen {
 
 /// What is seen of layers in front of an opaque level, white, at a distance; 0: nothing is there.
 Seen look_through(std::vector<LevelsForTest*> tracers, double opaque, uint32_t ghost = 99) {
-  const Camera camera = camera_from_above(kSide, 10);
+  const Camera camera = camera_from_above(kVeilSide, 10);
   ShadeSettings settings;
   settings.style = Style::kOpenscad;
   settings.is_preview = true;

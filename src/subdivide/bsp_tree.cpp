@@ -97,11 +97,7 @@ void BspTree::divide(std::span<const uint32_t> polygons, uint32_t plane, CellPol
 /// all polygons on the plane say there together.
 void BspTree::take_sample(std::span<const uint32_t> polygons, uint32_t parent,
                           const CellPolygons& in, Node& node) {
-  // What bounds the part counts, too: along a fold of hardly any angle, a polygon may go on beyond
-  // the other one's plane by far more than either is off its own.
   other_planes_.clear();
-  for (uint32_t n = parent; n != UINT32_MAX; n = parents_[n])
-    other_planes_.push_back(nodes_[n].plane);
   for (const uint32_t number : polygons)
     if (const uint32_t plane = in.polygons[number].plane; plane != node.plane)
       other_planes_.push_back(plane);
@@ -129,9 +125,14 @@ void BspTree::take_sample(std::span<const uint32_t> polygons, uint32_t parent,
       node.room = room;
       node.sample = p;
       node.jump = jump;
-      if (node.room > good_enough) return;
+      if (node.room > good_enough) break;
     }
+    if (node.room > good_enough) break;
   }
+  node.from_bounds = kInfinity;
+  for (uint32_t n = parent; n != UINT32_MAX; n = parents_[n])
+    node.from_bounds =
+        std::min(node.from_bounds, std::fabs(in.planes[nodes_[n].plane].at(node.sample)));
 }
 
 void BspTree::build(CellPolygons& in) {
@@ -151,7 +152,7 @@ void BspTree::build(CellPolygons& in) {
       self = uint32_t(nodes_.size());
       list_.assign(lists_.begin() + part.first, lists_.begin() + part.last);
       lists_.resize(part.first);
-      Node node{choose(list_, in), {0, 0}, {}, 0, 0};
+      Node node{.plane = choose(list_, in)};
       divide(list_, node.plane, in);
       take_sample(list_, part.parent, in, node);
       nodes_.push_back(node);

@@ -14,15 +14,16 @@ namespace whittle {
 class BspTree {
  public:
   struct Node {
-    uint32_t plane;
+    uint32_t plane = 0;
     /// In front of the plane, and where plane.at(q) <= 0. Nodes, which stand behind their parents,
     /// or parts: kPart + number.
-    uint32_t child[2];
-    Vec3 sample;  ///< a point of one of its polygons,
-    /// and how far it is from all other planes and polygons' edges nearby, and from the planes that
-    /// bound its part; may be 0.
-    double room;
-    int jump;  ///< by how much the winding number grows there, from front to back
+    uint32_t child[2] = {0, 0};
+    Vec3 sample = {};  ///< a point of one of its polygons,
+    double room = 0;   ///< how far it is from planes below and polygons' edges; may be 0,
+    /// and how far from the planes that bound its part. Along a fold of hardly any angle a polygon
+    /// may go on beyond the other one's plane by far more than either is off its own.
+    double from_bounds = 0;
+    int jump = 0;  ///< by how much the winding number grows there, from front to back
   };
   static constexpr uint32_t kPart = 1u << 31;
 

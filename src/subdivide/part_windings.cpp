@@ -108,7 +108,9 @@ std::optional<Vec3> PartWindings::inner_point(uint32_t part, double least, const
       break;
     }
   }
-  const Vec3 half = around.cell.half;
+  // Triangles were taken from a little beyond the cell, and a part may have room only there: a film
+  // between a plane and the cell's side.
+  const Vec3 half = around.cell.half + Vec3{1, 1, 1} * (2 * around.polygons.slack);
   const double most = 0.5 * std::min({half.x, half.y, half.z});
   const auto point_with = [&](double room) {
     moved_ = limits_;
@@ -137,7 +139,7 @@ void PartWindings::find(const Boundary& boundary, const CellBox& cell, const Cel
   known_ = 0;
   const double enough = 4 * in.slack;
   for (const BspTree::Node& node : tree.nodes())
-    if (node.room > enough) relate(node, in, tree);
+    if (node.room > enough && node.from_bounds > enough) relate(node, in, tree);
   for (const BspTree::Node& node : tree.nodes()) {
     if (known_ == sets_) break;
     const Vec3 n = in.planes[node.plane].n;
@@ -153,6 +155,9 @@ void PartWindings::find(const Boundary& boundary, const CellBox& cell, const Cel
     if (const std::optional<Vec3> q = inner_point(part, in.slack / 16, around)) probe(*q, around);
   }
   if (known_ < sets_) {
+    // Films between planes that lie on one another, but for the slack: nothing in them is clear.
+    for (const BspTree::Node& node : tree.nodes())
+      if (node.room > enough && !(node.from_bounds > enough)) relate(node, in, tree);
     for (const BspTree::Node& node : tree.nodes())
       if (!(node.room > enough)) relate(node, in, tree);
     // Where nothing in the cell is clear.

@@ -10,7 +10,7 @@
 namespace whittle {
 namespace {
 
-constexpr PictureSize kSize{800, 600};
+constexpr PictureSize kViewSize{800, 600};
 
 OrbitView some_view(bool orthographic) {
   return {{1, 2, 3}, {60, 0, 30}, 50, 30, orthographic};
@@ -18,11 +18,12 @@ OrbitView some_view(bool orthographic) {
 
 /// Where a point is seen, in pixels.
 std::pair<double, double> seen_at(const OrbitView& view, Vec3 p) {
-  const Camera camera = camera_of(view, kSize);
+  const Camera camera = camera_of(view, kViewSize);
   const Vec3 d = p - camera.eye;
   const double depth = view.orthographic ? 1 : dot(d, camera.forward);
   const double s = camera.units_per_pixel() * depth;
-  return {kSize.width / 2.0 + dot(d, camera.right) / s, kSize.height / 2.0 - dot(d, camera.up) / s};
+  return {kViewSize.width / 2.0 + dot(d, camera.right) / s,
+          kViewSize.height / 2.0 - dot(d, camera.up) / s};
 }
 
 void expect_seen_at(const OrbitView& view, Vec3 p, double x, double y) {
@@ -52,10 +53,10 @@ TEST(OrbitViewTest, WhatIsPannedFollowsTheDrag) {
   for (const bool orthographic : {false, true}) {
     const OrbitView view = some_view(orthographic);
     const Vec3 p{4, 1, 5};
-    const Camera camera = camera_of(view, kSize);
+    const Camera camera = camera_of(view, kViewSize);
     const double depth = dot(p - camera.eye, camera.forward);
     const auto [x, y] = seen_at(view, p);
-    expect_seen_at(panned(view, kSize, 37, -21, depth), p, x + 37, y - 21);
+    expect_seen_at(panned(view, kViewSize, 37, -21, depth), p, x + 37, y - 21);
   }
 }
 
@@ -89,7 +90,7 @@ TEST(OrbitViewTest, ThePivotIsInTheMiddle) {
 
 TEST(OrbitViewTest, SidesLookAlongTheAxes) {
   const auto forward = [](Side side) {
-    return camera_of(looking_at(some_view(false), side), kSize).forward;
+    return camera_of(looking_at(some_view(false), side), kViewSize).forward;
   };
   EXPECT_EQ(forward(Side::kFront), (Vec3{0, 1, 0}));
   EXPECT_EQ(forward(Side::kBack), (Vec3{0, -1, 0}));
@@ -106,7 +107,7 @@ TEST(OrbitViewTest, SidesLookAlongTheAxes) {
 TEST(OrbitViewTest, PointsOnTheTargetsPlaneAreSeenWhereTheyWereAskedFor) {
   for (const bool orthographic : {false, true}) {
     const OrbitView view = some_view(orthographic);
-    expect_seen_at(view, point_on_target_plane(view, kSize, 123, 456), 123, 456);
+    expect_seen_at(view, point_on_target_plane(view, kViewSize, 123, 456), 123, 456);
   }
 }
 
@@ -116,11 +117,11 @@ TEST(OrbitViewTest, RoundedViewsAreShortToWrite) {
   view.rotation_degrees = {54.999999, 0, 359.9999};
   view.distance = 47.123456789;
   const OrbitView written = rounded(view);
-  EXPECT_EQ(camera_text(view_options(written, kSize)), "0.3,-0.3333,0,55,0,0,47.1235");
+  EXPECT_EQ(camera_text(view_options(written, kViewSize)), "0.3,-0.3333,0,55,0,0,47.1235");
   EXPECT_EQ(rounded(written), written);
   view.distance = 2e8;
   view.target = {123456789, 0, 0};
-  EXPECT_EQ(camera_text(view_options(rounded(view), kSize)), "123457000,0,0,55,0,0,200000000");
+  EXPECT_EQ(camera_text(view_options(rounded(view), kViewSize)), "123457000,0,0,55,0,0,200000000");
 }
 
 TEST(OrbitViewTest, RoundingMovesNothingByAPixel) {
@@ -137,7 +138,7 @@ TEST(OrbitViewTest, RoundingMovesNothingByAPixel) {
 
 TEST(OrbitViewTest, ACameraTextGivesTheViewBack) {
   const OrbitView view = rounded(some_view(false));
-  const Result<ViewOptions> parsed = parse_camera(camera_text(view_options(view, kSize)));
+  const Result<ViewOptions> parsed = parse_camera(camera_text(view_options(view, kViewSize)));
   ASSERT_TRUE(parsed);
   EXPECT_EQ(parsed->target, view.target);
   EXPECT_EQ(parsed->rotation_degrees, view.rotation_degrees);

@@ -16,7 +16,7 @@
 namespace whittle {
 namespace {
 
-constexpr PictureSize kSize{160, 120};
+constexpr PictureSize kPaintedSize{160, 120};
 constexpr const char* kText =
     "difference() { cube([20, 20, 10]); translate([10, 10, -1]) cylinder(h = 20, r = 6, $fn = 0); "
     "}";
@@ -31,12 +31,12 @@ std::unique_ptr<Drawable> drawable_of(const std::string& text) {
 
 PaintRequest request_of(std::optional<OrbitView> view, bool is_moving = false) {
   ViewOptions framing;
-  framing.width = kSize.width, framing.height = kSize.height;
+  framing.width = kPaintedSize.width, framing.height = kPaintedSize.height;
   framing.tight = true;
   PaintRequest request;
   request.view = view;
   request.framing = framing;
-  request.size = kSize;
+  request.size = kPaintedSize;
   request.is_moving = is_moving;
   return request;
 }
@@ -44,7 +44,7 @@ PaintRequest request_of(std::optional<OrbitView> view, bool is_moving = false) {
 /// What the command line makes.
 Picture expected_picture(const std::string& text, const OrbitView& view, const Look& look = {}) {
   const std::unique_ptr<Drawable> drawable = drawable_of(text);
-  const Camera camera = camera_of(view, kSize);
+  const Camera camera = camera_of(view, kPaintedSize);
   WHITTLE_CHECK(drawable->renderer->prepare(camera));
   Result<Frame> frame = drawable->renderer->trace(camera);
   WHITTLE_CHECK(frame);
@@ -123,8 +123,8 @@ TEST_F(PainterTest, WhatMovesIsShownBeforeItIsFinal) {
   const Painter::News news =
       take_until([](const Painter::News& n) { return n.painted.has_value(); });
   EXPECT_FALSE(news.painted->step.is_final);
-  EXPECT_EQ(news.painted->picture.width, kSize.width);
-  EXPECT_EQ(news.painted->picture.height, kSize.height);
+  EXPECT_EQ(news.painted->picture.width, kPaintedSize.width);
+  EXPECT_EQ(news.painted->picture.height, kPaintedSize.height);
 }
 
 TEST_F(PainterTest, AnotherModelIsShownFromTheSameView) {
@@ -140,9 +140,9 @@ TEST_F(PainterTest, PicksSayWhatIsThere) {
   const OrbitView view{{10, 10, 5}, {0, 0, 0}, 100, 22.5, true};
   painter_.use(drawable_of(kText), request_of(view));
   // 40 units are 120 pixels high.
-  const double unit = kSize.height / (200 * std::tan(std::acos(-1.0) / 16));
-  painter_.ask({view, kSize, 80 - 8 * unit, 60});
-  painter_.ask({view, kSize, 80, 60});
+  const double unit = kPaintedSize.height / (200 * std::tan(std::acos(-1.0) / 16));
+  painter_.ask({view, kPaintedSize, 80 - 8 * unit, 60});
+  painter_.ask({view, kPaintedSize, 80, 60});
   std::vector<PickAnswer> answers;
   take_until([&](const Painter::News& news) {
     answers.insert(answers.end(), news.answers.begin(), news.answers.end());
@@ -166,8 +166,8 @@ TEST_F(PainterTest, WhatIsSeenIsKnownOfEveryPicture) {
     const std::optional<Vec3> point = made.point_at(52, 60);
     ASSERT_TRUE(point);
     EXPECT_NEAR(point->z, 10, 1e-4);
-    EXPECT_NEAR(length(*point - point_on_target_plane(view, kSize, 52, 60) - Vec3{0, 0, 5}), 0,
-                0.5);
+    EXPECT_NEAR(length(*point - point_on_target_plane(view, kPaintedSize, 52, 60) - Vec3{0, 0, 5}),
+                0, 0.5);
     EXPECT_FALSE(made.point_at(80, 60));
     EXPECT_FALSE(made.point_at(2, 2));
     EXPECT_FALSE(made.point_at(-1, 60));
@@ -183,7 +183,7 @@ TEST_F(PainterTest, SavesTheFinalPicture) {
   for (const bool background : {true, false}) {
     look.shading.background = background;
     const std::string path = folder / "part.png";
-    painter_.save({view, kSize, look, path});
+    painter_.save({view, kPaintedSize, look, path});
     const Painter::News news = take_until([](const Painter::News& n) { return !n.saved.empty(); });
     ASSERT_TRUE(news.saved[0]);
     EXPECT_EQ(*news.saved[0], path);
@@ -198,7 +198,7 @@ TEST_F(PainterTest, SavesTheFinalPicture) {
 
 TEST_F(PainterTest, AFolderThatIsNotThereIsSaid) {
   painter_.use(drawable_of(kText), request_of(OrbitView()));
-  painter_.save({OrbitView(), kSize, {}, "/there/is/no/such/folder.png"});
+  painter_.save({OrbitView(), kPaintedSize, {}, "/there/is/no/such/folder.png"});
   const Painter::News news = take_until([](const Painter::News& n) { return !n.saved.empty(); });
   ASSERT_FALSE(news.saved[0]);
   EXPECT_EQ(news.saved[0].error().kind, ErrorKind::kMachine);

@@ -8,15 +8,10 @@
 
 #include "csg/read_csg.h"
 #include "model/instances.h"
+#include "support/read_text.h"
 
 namespace whittle {
 namespace {
-
-Model model_of(const char* text) {
-  Result<Read> read = read_csg(text, "<test>");
-  EXPECT_TRUE(bool(read));
-  return std::move(read->model);
-}
 
 constexpr const char* kPart = "difference() { cube(20, center = true); sphere(12); }";
 
