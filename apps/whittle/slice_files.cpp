@@ -53,7 +53,7 @@ class Share {
 /// Whether a layer has anything in it.
 Result<bool> write_svg(const Slicer& slicer, const Box& box, const SliceSettings& settings,
                        const Workers& workers, Share& share) {
-  std::vector<Layer> layers(settings.heights.size());
+  std::vector<SlicedLayer> layers(settings.heights.size());
   workers.for_parts(layers.size(), 1, [&](size_t first, size_t last, size_t) {
     for (size_t i = first; i < last; ++i) {
       layers[i] = {settings.heights[i], slicer.at(settings.heights[i])};
@@ -63,7 +63,7 @@ Result<bool> write_svg(const Slicer& slicer, const Box& box, const SliceSettings
   const Status written =
       write_output(settings.paths[0], write_layers(layers, seen_from_above(box)));
   if (!written) return written.error();
-  return std::ranges::any_of(layers, [](const Layer& layer) { return !layer.loops.empty(); });
+  return std::ranges::any_of(layers, [](const SlicedLayer& layer) { return !layer.loops.empty(); });
 }
 
 /// White where the solid is.

@@ -9,7 +9,7 @@
 
 namespace whittle {
 
-std::string write_layers(std::span<const Layer> layers, const Rect& page) {
+std::string write_layers(std::span<const SlicedLayer> layers, const Rect& page) {
   SvgWriter writer(page, "Layers");
   for (size_t i = 0; i < layers.size(); ++i) {
     std::string attributes = fmt::format(" id=\"layer{}\" data-z=\"", i);

@@ -10,13 +10,13 @@
 namespace whittle {
 
 /// A section, and where it is.
-struct Layer {
+struct SlicedLayer {
   double z = 0;
   std::vector<Contour> loops;
 };
 
 /// One group a layer, in their order: `layer0` and so on, with its height as `data-z`, and in it
 /// one path unless the layer is empty. `page` is what all lie in.
-std::string write_layers(std::span<const Layer> layers, const Rect& page);
+std::string write_layers(std::span<const SlicedLayer> layers, const Rect& page);
 
 }  // namespace whittle

@@ -6,8 +6,8 @@ namespace whittle {
 namespace {
 
 TEST(WriteLayers, HasAGroupALayer) {
-  const std::vector<Layer> layers = {{0.2, {{{0, 0}, {3, 0}, {3, 2.5}}, {{1, 0}, {2, 1}, {2, 0}}}},
-                                     {-1, {}}};
+  const std::vector<SlicedLayer> layers = {
+      {0.2, {{{0, 0}, {3, 0}, {3, 2.5}}, {{1, 0}, {2, 1}, {2, 0}}}}, {-1, {}}};
   const std::string svg = write_layers(layers, {{0, 0}, {3, 2.5}});
   EXPECT_NE(svg.find("width=\"3mm\" height=\"3mm\" viewBox=\"0 -3 3 3\""), std::string::npos)
       << svg;
