@@ -1,12 +1,7 @@
 #include "draw_picture.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <string>
 #include <utility>
-
-#include "console.h"
 
 namespace whittle {
 
@@ -28,10 +23,8 @@ Result<Drawn> draw_picture(const RenderArguments& a, const std::vector<Output>& 
   Result<Picture> shaded = a.xray ? renderer.xray(camera, a.shading, rays)
                                   : renderer.shade(drawn.frame, camera, a.shading, rays);
   if (!shaded) return shaded.error();
-  const bool has_colors = a.shading.style != Style::kOpenscad || a.shading.is_preview;
-  const std::string note = has_colors ? renderer.picture_note() : std::string();
-  if (!note.empty() && !a.loading.quiet)
-    progress.without_line([&] { say(fmt::format("{}: warning: {}", a.file, note)); });
+  const bool has_colors = !a.xray && (a.shading.style != Style::kOpenscad || a.shading.is_preview);
+  if (has_colors) drawn.note = renderer.picture_note();
   drawn.picture = *std::move(shaded);
   if (a.overlays.any())
     draw_overlays(a.overlays, camera, drawn.frame, renderer.framed_box(), drawn.picture);

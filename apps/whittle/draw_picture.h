@@ -1,6 +1,7 @@
 // One picture: from a camera to what its files show.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "progress.h"
@@ -12,6 +13,7 @@ namespace whittle {
 struct Drawn {
   Frame frame;
   Picture picture;
+  std::string note{};  ///< how the colours are not what was asked for; empty: they are
 };
 
 /// Traces and shades, and lays over it what is asked for. Precondition: prepare() was called.

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/timing.h"
-#include "draw_picture.h"
 #include "frame_files.h"
 #include "statistics.h"
 #include "whittle/reading.h"
@@ -30,15 +29,13 @@ Status render_turntable(RenderArguments& a, const std::vector<Output>& outputs, 
   for (int frame = 0; frame < frames; ++frame) {
     Result<Drawn> drawn = draw_picture(a, outputs, table.at(frame, frames), *renderer, progress);
     if (!drawn) return drawn.error();
-    if (frame == 0)
-      progress.without_line([&] { say_if_nothing_is_seen(read->model, drawn->frame, a.loading); });
+    progress.without_line([&] { say_of_picture(a, read->model, *drawn, made); });
     made.add(outputs_of_frame(a, outputs, frame), *read);
     if (Status added = files.add(frame, *std::move(drawn)); !added) return added;
   }
   const Stopwatch writing;
   if (Status done = files.finish(); !done) return done;
-  for (const Output& output : outputs)
-    if (output.is_film()) made.targets.push_back(still_output(a, output.path));
+  add_films(a, outputs, made);
   times.write = writing.milliseconds();
   times.total = watch.milliseconds();
   const double seconds = filming.milliseconds() / 1000;

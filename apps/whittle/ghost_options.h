@@ -6,7 +6,7 @@
 
 namespace whittle {
 
-/// --ghosts.
+/// --ghosts and --cut-color.
 void add_ghost_options(CLI::App& app, RenderArguments& a);
 
 /// What --ghosts and --preview mean for reading, framing and shading. Fails where that is nothing.

@@ -174,6 +174,12 @@ void add_options(CommandLine& line, RenderArguments& a) {
   line.add_version("whittle " WHITTLE_VERSION);
 }
 
+LineSettings line_settings(const RenderArguments& a) {
+  LineSettings lines = a.lines;
+  lines.scale = a.scale.value_or(1);
+  return lines;
+}
+
 Result<std::vector<Output>> choose_outputs(const RenderArguments& a) {
   std::vector<Output> outputs;
   for (const std::string& path : a.outputs) {

@@ -59,6 +59,9 @@ struct RenderArguments {
 
 void add_options(CommandLine& line, RenderArguments& a);
 
+/// Of line drawings, at the scale that was chosen.
+LineSettings line_settings(const RenderArguments& a);
+
 /// The outputs as they are given: templates.
 Result<std::vector<Output>> choose_outputs(const RenderArguments& a);
 

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
-#include <set>
 #include <utility>
 
 #include "base/timing.h"
-#include "draw_picture.h"
 #include "frame_files.h"
 #include "frame_reader.h"
 #include "line_files.h"
@@ -49,7 +47,7 @@ Status render(RenderArguments& a, const std::vector<Output>& outputs, const Mode
   };
   Result<Drawn> drawn = draw();
   if (!drawn) return drawn.error();
-  say_if_nothing_is_seen(model, drawn->frame, a.loading);
+  say_of_picture(a, model, *drawn, made);
   made.compared = compare_if_asked(a, *drawn);
 
   const Stopwatch writing;
@@ -84,10 +82,9 @@ Status write_lines(RenderArguments& a, const std::vector<Output>& outputs, bool 
   if (!read) return read.error();
   std::vector<std::string> paths;
   for (const Output& output : outputs) paths.push_back(output.path);
-  LineSettings lines = a.lines;
-  lines.scale = a.scale.value_or(1);
   const Status drawn = write_line_files(
-      read->model, paths, {a.view, lines, a.renderer.threads, a.loading.quiet, a.wants_statistics});
+      read->model, paths,
+      {a.view, line_settings(a), a.renderer.threads, a.loading.quiet, a.wants_statistics});
   if (!drawn) return drawn;
   made.add(outputs, *read);
   if (made.code == kExitDone) made.code = code_for(*read, loading, "drawing");
@@ -136,6 +133,18 @@ Status write_shapes(RenderArguments& a, const std::vector<Output>& outputs, bool
 
 }  // namespace
 
+void say_of_picture(const RenderArguments& a, const Model& model, const Drawn& drawn, Made& made) {
+  // Whether anything is seen is said of the first picture alone.
+  if (made.said.insert("seen").second) say_if_nothing_is_seen(model, drawn.frame, a.loading);
+  if (!drawn.note.empty() && !a.loading.quiet && made.said.insert(drawn.note).second)
+    say(fmt::format("{}: warning: {}", a.file, drawn.note));
+}
+
+void add_films(const RenderArguments& a, const std::vector<Output>& outputs, Made& made) {
+  for (const Output& output : outputs)
+    if (output.is_film()) made.targets.push_back(still_output(a, output.path));
+}
+
 Status tell_summary(const RenderArguments& a, const SummaryFacts& facts) {
   if (!a.summary.parts.empty() && !a.loading.quiet) {
     if (const std::string lines = summary_lines(facts, a.summary); !lines.empty()) say_lines(lines);
@@ -174,7 +183,6 @@ Status render_frames(RenderArguments& a, const std::vector<Output>& outputs, Mad
   FrameFiles files(a, outputs, int(times.size()));
   if (Status opened = files.open(); !opened) return opened;
   FrameReader reader(a.file, read_options(a.loading), times);
-  std::set<std::string> said;
   for (size_t i = 0; i < times.size(); ++i) {
     const Stopwatch watch;
     Result<Read> read = reader.next();
@@ -183,7 +191,7 @@ Status render_frames(RenderArguments& a, const std::vector<Output>& outputs, Mad
     }
     // Each warning once.
     std::erase_if(read->warnings,
-                  [&](const std::string& warning) { return !said.insert(warning).second; });
+                  [&](const std::string& warning) { return !made.said.insert(warning).second; });
     if (Status fit = say_warnings(*read, a.loading); !fit) return fit;
     if (Status opened = open_if_asked(a.loading.section, read->model); !opened) return opened;
     const int number = animation.first() + int(i);
@@ -197,8 +205,7 @@ Status render_frames(RenderArguments& a, const std::vector<Output>& outputs, Mad
     if (made.code == kExitDone) made.code = code_for(*read, a.loading, "picture");
   }
   if (Status done = files.finish(); !done) return done;
-  for (const Output& output : outputs)
-    if (output.is_film()) made.targets.push_back(still_output(a, output.path));
+  add_films(a, outputs, made);
   return Done{};
 }
 

@@ -1,10 +1,12 @@
 // From what was read to the files that show it.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
 #include "console.h"
+#include "draw_picture.h"
 #include "host/read_file.h"
 #include "render_arguments.h"
 
@@ -15,6 +17,7 @@ struct Made {
   int code = kExitDone;
   Status compared = Done{};                 ///< with --reference; everything else is still written
   std::vector<std::string> targets, files;  ///< for make
+  std::set<std::string> said;  ///< what is said once, however many frames it is true of
 
   void add(const std::vector<Output>& outputs, const Read& read) {
     for (const Output& output : outputs) targets.push_back(output.path);
@@ -26,6 +29,12 @@ struct Made {
 
 /// Pictures first: what is no solid to print may well be seen.
 Status render_still(RenderArguments& a, const std::vector<Output>& outputs, Made& made);
+
+/// Says what is seen and what is not in a picture, unless it was said of another.
+void say_of_picture(const RenderArguments& a, const Model& model, const Drawn& drawn, Made& made);
+
+/// The films among the outputs, for make.
+void add_films(const RenderArguments& a, const std::vector<Output>& outputs, Made& made);
 
 /// Says what --summary asks for.
 Status tell_summary(const RenderArguments& a, const SummaryFacts& facts);

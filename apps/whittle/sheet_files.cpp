@@ -82,8 +82,6 @@ Status write_sheets(const RenderArguments& a, const std::vector<Output>& outputs
 Status write_drawings(const RenderArguments& a, const std::vector<Output>& outputs,
                       const Read& read, Made& made) {
   RenderArguments one = a;
-  LineSettings lines = a.lines;
-  lines.scale = a.scale.value_or(1);
   for (const NamedView view : a.sheet.views) {
     one.view.named = view;
     std::vector<Output> files = outputs;
@@ -91,7 +89,7 @@ Status write_drawings(const RenderArguments& a, const std::vector<Output>& outpu
     for (Output& file : files) paths.push_back(file.path = view_output(a, file.path, view));
     const Status written = write_line_files(
         read.model, paths,
-        {one.view, lines, a.renderer.threads, a.loading.quiet, a.wants_statistics});
+        {one.view, line_settings(a), a.renderer.threads, a.loading.quiet, a.wants_statistics});
     if (!written) return written;
     made.add(files, read);
   }
@@ -102,10 +100,8 @@ Status write_drawings(const RenderArguments& a, const std::vector<Output>& outpu
 Status write_drawn_sheets(const RenderArguments& a, const std::vector<Output>& outputs,
                           const SheetSettings& settings, const Model& model,
                           ProgressLine& progress) {
-  LineSettings lines = a.lines;
-  lines.scale = a.scale.value_or(1);
   const Result<std::string> svg = sheet_svg_of(
-      model, settings, lines, a.renderer.threads,
+      model, settings, line_settings(a), a.renderer.threads,
       [&progress](const char* stage) { progress.stage(stage); }, progress.share());
   if (!svg) return svg.error();
   for (const Output& output : outputs)
@@ -144,6 +140,7 @@ Status render_views(RenderArguments& a, const std::vector<Output>& outputs, Made
       const Result<Drawn> drawn =
           draw_picture(one, files, renderer->camera(one.view), *renderer, progress);
       if (!drawn) return drawn.error();
+      progress.without_line([&] { say_of_picture(a, read->model, *drawn, made); });
       if (Status written = write_pictures(one, files, *drawn); !written) return written;
       made.add(files, *read);
     }

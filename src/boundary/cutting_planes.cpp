@@ -6,9 +6,8 @@
 namespace whittle {
 
 CuttingPlanes::CuttingPlanes(const Box& region, size_t faces, const ExactGrid& grid,
-                             PlaneTable& planes)
-    : halvings_(std::clamp(int(std::bit_width(faces)) / 2 + 2, 3, 12)), box_(region) {
-  const auto count = size_t(1) << halvings_;
+                             PlaneTable& planes) {
+  const auto count = size_t(1) << std::clamp(int(std::bit_width(faces)) / 2 + 2, 3, 12);
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = size_t(axis);
     region_.lo[i] = planes.add(grid.square_plane(axis, region.lo[axis]));

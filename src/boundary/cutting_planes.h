@@ -26,9 +26,7 @@ class CuttingPlanes {
   std::optional<Cut> between(int axis, double lo, double hi) const;
 
  private:
-  int halvings_;
   CellSides region_;
-  Box box_;
   std::array<std::vector<Cut>, 3> cuts_;  ///< by axis, in order
 };
 

@@ -135,11 +135,12 @@ class SolidEvaluation {
     if (Status made = make_faces(); !made) return made.error();
     if (is_stopped(kMade)) return SolidMesh{};
     Result<FaceOutlines> outlines = join_with_cells();
-    if (!outlines && !plan_.units.empty() && !settings_.stop.stop_requested()) {
+    if (!outlines && !plan_.units.empty() && !is_too_much_ && !settings_.stop.stop_requested()) {
       // Bodies of triangles say by a hair's breadth different things in cells and here.
       plan_ = {};
       pieces_ = {};
       stats_.asked_all_contacts = false;
+      stats_.whole_planes = 0;
       outlines = join_with_cells();
     }
     if (is_stopped(kFilled)) return SolidMesh{};
@@ -210,6 +211,12 @@ class SolidEvaluation {
     });
   }
 
+  /// A limit is reached; what is tried next would reach it too.
+  Error refuse() {
+    is_too_much_ = true;
+    return too_much();
+  }
+
   Result<FaceOutlines> join_with_cells() {
     std::vector<uint32_t> open_planes;
     if (!needs_cells()) return joined(open_planes);
@@ -220,7 +227,7 @@ class SolidEvaluation {
     const std::vector<WalkedLeaf> leaves = walk_leaves(tree, grid_, planes_);
     stats_.leaves = leaves.size();
     lap(stats_.cells_ms);
-    if (pairs_in(leaves) > settings_.pairs) return too_much();
+    if (pairs_in(leaves) > settings_.pairs) return refuse();
     PerWorker<PieceMaker> makers(workers_);
     const auto maker_of = [&](size_t worker) -> PieceMaker& {
       return makers.of(worker, scene_, geometry_, half_spaces_, paints_,
@@ -232,7 +239,7 @@ class SolidEvaluation {
     constexpr size_t kLeavesAtATime = 32;
     if (!collector_.collect(leaves.size(), kLeavesAtATime, maker_of, add_leaf, kMade, kWithin,
                             pieces_))
-      return too_much();
+      return refuse();
     const PieceMark within(pieces_);
 
     // Leaves are proven to agree where they touch, but for what lies there. Where a body is a mesh
@@ -250,7 +257,7 @@ class SolidEvaluation {
       };
       if (!collector_.collect(contacts.size(), kLeavesAtATime, maker_of, add_contact, kWithin,
                               kBetween, pieces_))
-        return too_much();
+        return refuse();
       stats_.contacts = contacts.size();
       lap(stats_.cut_ms);
       Result<FaceOutlines> outlines = joined(open_planes);
@@ -301,6 +308,7 @@ class SolidEvaluation {
   const ExactGeometry geometry_;
   const PieceCollector collector_;
   FacePlan plan_;
+  bool is_too_much_ = false;
   Pieces pieces_;
   Stopwatch watch_;
 };

@@ -37,7 +37,8 @@ struct BoundarySettings {
   /// Pairs of half-spaces that meet in a leaf, of all leaves together: about what cutting takes.
   uint64_t pairs = UINT64_MAX;
   size_t pieces = SIZE_MAX;  ///< convex ones that faces are cut into
-  /// Faces that can be decided one by one are; else all are cut in cells. The boundary is the same.
+  /// Faces that can be decided one by one are; else all are cut in cells. The surface is the same,
+  /// though not its triangles.
   bool whole_faces = true;
 };
 

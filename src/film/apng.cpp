@@ -1,5 +1,3 @@
-#include <zlib.h>
-
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -16,14 +14,6 @@ constexpr size_t kSignatureSize = 8;
 
 void put(std::string& bytes, uint32_t value, int size) {
   for (int shift = 8 * (size - 1); shift >= 0; shift -= 8) bytes += char(uint8_t(value >> shift));
-}
-
-void put_chunk(std::string& bytes, std::string_view name, std::string_view data) {
-  put(bytes, uint32_t(data.size()), 4);
-  const size_t first = bytes.size();
-  bytes.append(name).append(data);
-  const uLong check = crc32_z(0, reinterpret_cast<const Bytef*>(&bytes[first]), 4 + data.size());
-  put(bytes, uint32_t(check), 4);
 }
 
 uint32_t word_at(std::string_view bytes, size_t at) {
@@ -71,7 +61,7 @@ class ApngWriter : public FilmWriter {
       }
       std::string numbered;
       put(numbered, next_number_++, 4);
-      put_chunk(bytes, "fdAT", numbered.append(data));
+      put_png_chunk(bytes, "fdAT", numbered.append(data));
     });
     ++added_;
     return sink_(bytes);
@@ -80,7 +70,7 @@ class ApngWriter : public FilmWriter {
   Status finish() override {
     WHITTLE_CHECK(added_ == settings_.frames);
     std::string end;
-    put_chunk(end, "IEND", "");
+    put_png_chunk(end, "IEND", "");
     return sink_(end);
   }
 
@@ -90,7 +80,7 @@ class ApngWriter : public FilmWriter {
       std::string all;
       put(all, uint32_t(settings_.frames), 4);
       put(all, 0, 4);  // it is played for ever
-      put_chunk(bytes, "acTL", all);
+      put_png_chunk(bytes, "acTL", all);
     }
     std::string frame;
     put(frame, next_number_++, 4);
@@ -103,7 +93,7 @@ class ApngWriter : public FilmWriter {
     put(frame, uint32_t(std::lround(100 * settings_.fps)), 2);
     put(frame, 0, 1);  // it stays until the next,
     put(frame, 0, 1);  // which takes its place
-    put_chunk(bytes, "fcTL", frame);
+    put_png_chunk(bytes, "fcTL", frame);
   }
 
   FilmSettings settings_;

@@ -25,7 +25,7 @@ class LinearExtruder {
   TriangleMesh run() && {
     rings_.reserve(size_t(slices_) + 1);
     for (int j = 0; j <= slices_; ++j) rings_.push_back(ring(j));
-    for (const Side& side : sides(base_)) add_side(side);
+    for (const ContourSide& side : sides(base_)) add_side(side);
     for (const auto& [a, b, c] : triangulate(base_)) {
       add_cap(a, c, b, rings_.front(), -1);
       add_cap(a, b, c, rings_.back(), 1);
@@ -62,7 +62,7 @@ class LinearExtruder {
     builder_.triangle(ring[a], ring[b], ring[c], builder_.facet({{0, 0, z}, z * height}));
   }
 
-  void add_side(const Side& side) {
+  void add_side(const ContourSide& side) {
     // An edge along an axis stays so under any scale; under one factor all edges keep their
     // direction.
     const Vec2 edge = side.line_to - side.line_from;

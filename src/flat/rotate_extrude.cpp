@@ -32,7 +32,7 @@ class RotateExtruder {
     rings_.reserve(size_t(turn_.steps) + 1);
     for (int j = 0; j < turn_.steps + (turn_.is_full ? 0 : 1); ++j) rings_.push_back(ring(j));
     if (turn_.is_full) rings_.push_back(rings_.front());
-    const std::vector<Side> all = sides(profile_);
+    const std::vector<ContourSide> all = sides(profile_);
     for (int j = 0; j < turn_.steps; ++j) add_step(all, j);
     if (!turn_.is_full) add_caps();
     return std::move(builder_).finish();
@@ -58,12 +58,12 @@ class RotateExtruder {
 
   uint32_t facet(Plane plane) { return builder_.facet(flip_ ? Plane{-plane.n, -plane.d} : plane); }
 
-  void add_step(const std::vector<Side>& all, int j) {
+  void add_step(const std::vector<ContourSide>& all, int j) {
     const Ring &here = rings_[size_t(j)], &there = rings_[size_t(j) + 1];
     const double middle = turn_.degrees(j + 0.5);
     const double c = cos_degrees(middle), s = sin_degrees(middle);
     const double apothem = cos_degrees(turn_.angle_degrees / turn_.steps / 2);
-    for (const Side& side : all) {
+    for (const ContourSide& side : all) {
       const uint32_t a = here[side.from], b = here[side.to];
       // On the axis nothing is swept.
       if (a == there[side.from] && b == there[side.to]) continue;
@@ -75,7 +75,7 @@ class RotateExtruder {
 
   /// Of the trapezoid that a side sweeps in a step with the given middle, outward whichever side of
   /// the axis it is on.
-  static Plane plane(const Side& side, double c, double s, double apothem) {
+  static Plane plane(const ContourSide& side, double c, double s, double apothem) {
     const Vec2 from = side.line_from, along = side.line_to - from;
     if (along.y == 0) {
       const double z = along.x > 0 ? -1 : 1;

@@ -29,9 +29,9 @@ bool is_straight(Vec2 a, Vec2 middle, Vec2 b, double slack) {
 
 }  // namespace
 
-std::vector<Side> sides(const WeldedPolygons& polygons) {
+std::vector<ContourSide> sides(const WeldedPolygons& polygons) {
   const double slack = kStraight * reach(polygons);
-  std::vector<Side> all;
+  std::vector<ContourSide> all;
   for (const std::vector<uint32_t>& contour : polygons.contours) {
     const size_t n = contour.size();
     const auto at = [&](size_t i) { return polygons.points[contour[i % n]]; };

@@ -11,7 +11,7 @@ namespace whittle {
 /// More side faces than this are never made: slices and steps are coarser instead.
 inline constexpr double kMaxSides = 5e5;
 
-struct Side {
+struct ContourSide {
   uint32_t from = 0, to = 0;  ///< the edge
   /// The line it lies on. Edges of a contour that follow one another without a bend have it in
   /// common.
@@ -20,6 +20,6 @@ struct Side {
 };
 
 /// Of all contours.
-std::vector<Side> sides(const WeldedPolygons& polygons);
+std::vector<ContourSide> sides(const WeldedPolygons& polygons);
 
 }  // namespace whittle

@@ -81,7 +81,7 @@ Picture shade_antialiased(Tracer& tracer, const Camera& camera, const Frame& fra
   const Shader shader(camera, appearances, settings);
   PerWorker<MeanScratch> scratch(workers);
   std::vector<uint8_t> differences;
-  if (n > 1 || veil) differences = later_differences(frame, camera, workers, kCosEdge);
+  if (n > 1) differences = later_differences(frame, camera, workers, kCosEdge);
   Picture picture = veil
                         ? shade_veiled(frame, shader, shadows, *veil, workers, scratch, differences)
                         : shade(frame, camera, appearances, settings, workers, shadows);

@@ -28,15 +28,6 @@ void put_word(std::string& bytes, uint32_t word) {
   for (int shift = 24; shift >= 0; shift -= 8) bytes += char(uint8_t(word >> shift));
 }
 
-/// A chunk of the file: how long, what, the data, and their check.
-void put_chunk(std::string& bytes, const char* name, std::string_view data) {
-  put_word(bytes, uint32_t(data.size()));
-  const size_t first = bytes.size();
-  bytes.append(name, 4).append(data);
-  const uLong check = crc32_z(0, reinterpret_cast<const Bytef*>(&bytes[first]), 4 + data.size());
-  put_word(bytes, uint32_t(check));
-}
-
 /// Turns rows into what is compressed: a byte that says how, and differences.
 class RowFilter {
  public:
@@ -131,7 +122,7 @@ std::string encode_channels(const Picture& picture, size_t channels, const Worke
       // A stream begins with what it is: deflated, of any window, quickly.
       std::string data = i == 0 ? "\x78\x01" : "";
       encoder.deflater.compress(encoder.rows, i + 1 == stripes.size(), data);
-      put_chunk(stripe.chunk, "IDAT", data);
+      put_png_chunk(stripe.chunk, "IDAT", data);
     }
   });
 
@@ -141,8 +132,8 @@ std::string encode_channels(const Picture& picture, size_t channels, const Worke
   // Eight bits, which channels, and the only ways there are to compress, filter and interlace.
   header.append({8, char(channels == 4 ? 6 : channels == 3 ? 2 : 0), 0, 0, 0});
   std::string bytes = "\x89PNG\r\n\x1a\n";
-  put_chunk(bytes, "IHDR", header);
-  put_chunk(bytes, "sRGB", std::string_view("\0", 1));
+  put_png_chunk(bytes, "IHDR", header);
+  put_png_chunk(bytes, "sRGB", std::string_view("\0", 1));
   uLong check = 1;
   size_t size = bytes.size() + 64;
   for (const Stripe& stripe : stripes) size += stripe.chunk.size();
@@ -153,12 +144,20 @@ std::string encode_channels(const Picture& picture, size_t channels, const Worke
   }
   std::string end;
   put_word(end, uint32_t(check));
-  put_chunk(bytes, "IDAT", end);
-  put_chunk(bytes, "IEND", "");
+  put_png_chunk(bytes, "IDAT", end);
+  put_png_chunk(bytes, "IEND", "");
   return bytes;
 }
 
 }  // namespace
+
+void put_png_chunk(std::string& bytes, std::string_view name, std::string_view data) {
+  put_word(bytes, uint32_t(data.size()));
+  const size_t first = bytes.size();
+  bytes.append(name).append(data);
+  const uLong check = crc32_z(0, reinterpret_cast<const Bytef*>(&bytes[first]), 4 + data.size());
+  put_word(bytes, uint32_t(check));
+}
 
 std::string encode_png(const Picture& picture, bool with_alpha, const Workers* workers) {
   return encode_channels(picture, with_alpha ? 4 : 3, workers);

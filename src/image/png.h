@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "base/result.h"
 #include "base/workers.h"
@@ -19,5 +20,8 @@ std::string encode_grey_png(const Picture& picture, const Workers* workers = nul
 
 /// Reads any PNG as 8-bit RGBA.
 Result<Picture> read_png(const std::string& path);
+
+/// Adds a chunk of a PNG: how long, its name of four letters, the data, and their check.
+void put_png_chunk(std::string& bytes, std::string_view name, std::string_view data);
 
 }  // namespace whittle

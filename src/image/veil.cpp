@@ -36,7 +36,7 @@ bool differ(const Spot& a, const Spot& b) {
 
 }  // namespace
 
-Veil::Veil(std::vector<VeilLayer> layers, std::vector<Appearance> looks, const Camera& camera,
+Veil::Veil(std::vector<VeilLayer> layers, std::span<const Appearance> looks, const Camera& camera,
            const ShadeSettings& settings, double tolerance)
     : layers_(std::move(layers)),
       shades_(layers_.size(), 0),
@@ -87,9 +87,10 @@ void Veil::look_at_rows(const Frame& opaque, size_t first, size_t last,
     ray_of.resize(count);
     for (size_t i = 0; i < count; ++i) {
       // What is wholly behind what is opaque is not asked for.
+      const float behind = sight.opaque[i].distance;
       const bool may_be_seen =
           seen[i].hit() &&
-          seen[i].distance <= sight.opaque[i].distance * (1 + 1e-5f) + float(4 * tolerance_);
+          seen[i].distance <= behind + 1e-5f * std::fabs(behind) + float(4 * tolerance_);
       ray_of[i] = may_be_seen ? 0 : VeilSight::kNone;
     }
     cast(layer, places, sight);

@@ -62,7 +62,7 @@ class Veil {
  public:
   /// `looks` are those of all layers, `tolerance` is the model's: surfaces that are no farther
   /// apart lie on one another. What the layers refer to must outlive this.
-  Veil(std::vector<VeilLayer> layers, std::vector<Appearance> looks, const Camera& camera,
+  Veil(std::vector<VeilLayer> layers, std::span<const Appearance> looks, const Camera& camera,
        const ShadeSettings& settings, double tolerance);
 
   const std::vector<VeilLayer>& layers() const { return layers_; }
@@ -74,7 +74,7 @@ class Veil {
 
   /// Goes through a picture in bands of rows: draw(first row, last row, sight) is told what is seen
   /// through the middles of the band's pixels. Adds where walls of neighbours differ to
-  /// `differences` (later_differences()).
+  /// `differences` (later_differences()), unless that is empty: nobody asks.
   template <class Draw>
   void for_bands(const Frame& opaque, const Workers& workers, std::vector<uint8_t>& differences,
                  const Draw& draw);
@@ -120,8 +120,9 @@ void Veil::for_bands(const Frame& opaque, const Workers& workers, std::vector<ui
     // And the row below, for the edges between.
     const size_t end = std::min(height, last + 1);
     look_at_rows(opaque, first, end, places, sight);
-    add_differences(sight, width, last - first, end > last, workers,
-                    std::span(differences).subspan(first * width, (last - first) * width));
+    if (!differences.empty())
+      add_differences(sight, width, last - first, end > last, workers,
+                      std::span(differences).subspan(first * width, (last - first) * width));
     draw(first, last, sight);
   }
 }

@@ -37,7 +37,7 @@ double growth(const Affine& map) {
 
 /// Units of the drawing in one of the model where it is nearest to the eye. Right before the eye
 /// what is a little farther away counts.
-double nearest_units(const Model& model, const Projection& projection) {
+double nearest_units(const Model& model, const ViewProjection& projection) {
   const Box box = bounds(model).box;
   if (box.is_empty()) return 1;
   const double reach = length(box.size()) / 2;
@@ -61,7 +61,8 @@ double curve_radius(const Shape& shape, const Affine& world_from_object) {
   return radius * growth(world_from_object) / std::sqrt(3.0);
 }
 
-Result<Model> facet_curves(const Model& model, const Projection& projection, size_t most_facets) {
+Result<Model> facet_curves(const Model& model, const ViewProjection& projection,
+                           size_t most_facets) {
   const std::vector<Instance> all = instances(model);
   const std::vector<uint32_t> bodies = bodies_of_parts(model, all);
   std::vector<double> radii(all.size());

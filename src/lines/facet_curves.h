@@ -12,7 +12,8 @@ namespace whittle {
 /// that fill the whole picture. Curves of one body have equally many, so that its parts fit
 /// together, and so have equal ones wherever they are. Facets that are there already stay. A
 /// kMachine error for more than `most_facets`.
-Result<Model> facet_curves(const Model& model, const Projection& projection, size_t most_facets);
+Result<Model> facet_curves(const Model& model, const ViewProjection& projection,
+                           size_t most_facets);
 
 /// A round shape's radius where it stands, about; 0 of what has none.
 double curve_radius(const Shape& shape, const Affine& world_from_object);

@@ -7,14 +7,14 @@
 namespace whittle {
 namespace {
 
-Projection projection_of(double scale) {
+ViewProjection projection_of(double scale) {
   Camera camera;
   camera.orthographic = true;
-  return Projection(camera, scale, 10);
+  return ViewProjection(camera, scale, 10);
 }
 
 std::vector<int> facets(const std::string& text, double scale) {
-  const Projection projection = projection_of(scale);
+  const ViewProjection projection = projection_of(scale);
   const Result<Model> model = facet_curves(model_of(text), projection, 1'000'000);
   std::vector<int> counts;
   for (const Primitive& primitive : model->primitives) {
@@ -49,7 +49,7 @@ TEST(FacetCurves, PartsOfOneBodyFit) {
 }
 
 TEST(FacetCurves, ManyGetFewer) {
-  const Projection projection = projection_of(1);
+  const ViewProjection projection = projection_of(1);
   const Model model = model_of("sphere(r = 100);");
   const Result<Model> all = facet_curves(model, projection, 100'000),
                       few = facet_curves(model, projection, 2'000);

@@ -67,8 +67,8 @@ class TracedScene {
 /// One drawing on its way from edges to paths.
 class Drafter {
  public:
-  Drafter(std::vector<SolidEdge> edges, const Projection& projection, const LineSettings& settings,
-          const Workers& workers)
+  Drafter(std::vector<SolidEdge> edges, const ViewProjection& projection,
+          const LineSettings& settings, const Workers& workers)
       : edges_(std::move(edges)),
         projection_(projection),
         settings_(settings),
@@ -139,7 +139,7 @@ class Drafter {
   }
 
   std::vector<SolidEdge> edges_;
-  const Projection& projection_;
+  const ViewProjection& projection_;
   const LineSettings& settings_;
   const Workers& workers_;
   double step_;
@@ -182,7 +182,7 @@ Result<LineDrawing> draw_lines(const Model& model, const Camera& given,
   const Workers workers(threads);
   const Box box = bounds(model).box;
   const Camera camera = seeing_all(given, box);
-  const Projection projection(camera, settings.scale, length(box.size()));
+  const ViewProjection projection(camera, settings.scale, length(box.size()));
   enter("evaluating");
   const Result<Model> facetted = facet_curves(model, projection, settings.most_facets);
   if (!facetted) return facetted.error();

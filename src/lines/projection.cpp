@@ -23,7 +23,7 @@ bool clip(double at_a, double at_b, double& from, double& to) {
 
 }  // namespace
 
-Vec2 Projection::place(Vec3 point, double depth) const {
+Vec2 ViewProjection::place(Vec3 point, double depth) const {
   const Vec3 way = point - camera_.eye;
   const double x = dot(way, camera_.right), y = dot(way, camera_.up);
   if (camera_.orthographic) return {x * scale_, -y * scale_};
@@ -31,7 +31,7 @@ Vec2 Projection::place(Vec3 point, double depth) const {
   return {0.5 * camera_.width + x / unit, 0.5 * camera_.height - y / unit};
 }
 
-std::optional<DrawnLine> Projection::draw(Vec3 from, Vec3 to) const {
+std::optional<DrawnLine> ViewProjection::draw(Vec3 from, Vec3 to) const {
   double depth_a = depth(from), depth_b = depth(to);
   if (camera_.orthographic)
     return DrawnLine{place(from, depth_a), place(to, depth_b), from, to, depth_a, depth_b, 0};
@@ -53,34 +53,34 @@ std::optional<DrawnLine> Projection::draw(Vec3 from, Vec3 to) const {
       line.at(s0), line.at(s1), point(line, s0), point(line, s1), line.key(s0), line.key(s1), 0};
 }
 
-Vec3 Projection::point(const DrawnLine& line, double s) const {
+Vec3 ViewProjection::point(const DrawnLine& line, double s) const {
   if (camera_.orthographic) return line.from + (line.to - line.from) * s;
   const double a = line.key_a * (1 - s), b = line.key_b * s;
   return (line.from * a + line.to * b) / (a + b);
 }
 
-bool Projection::is_before(double key, double other) const {
+bool ViewProjection::is_before(double key, double other) const {
   const double slack = 1e-9 * (std::fabs(key) + std::fabs(other));
   return camera_.orthographic ? key < other - slack : key > other + slack;
 }
 
-double Projection::units_at(double depth) const {
+double ViewProjection::units_at(double depth) const {
   if (camera_.orthographic) return scale_;
   return 1 / (camera_.units_per_pixel() * std::max(depth, nearest_));
 }
 
-double Projection::facing(Vec3 normal, Vec3 point) const {
+double ViewProjection::facing(Vec3 normal, Vec3 point) const {
   return camera_.orthographic ? -dot(normal, camera_.forward)
                               : dot(normal, normalize(camera_.eye - point));
 }
 
-Ray Projection::ray_at(Vec2 place) const {
+Ray ViewProjection::ray_at(Vec2 place) const {
   if (!camera_.orthographic) return camera_.ray(place.x, place.y);
   return {camera_.eye + camera_.right * (place.x / scale_) - camera_.up * (place.y / scale_),
           camera_.forward, -camera_.ortho_reach};
 }
 
-Ray Projection::ray_to(Vec3 point, double& distance) const {
+Ray ViewProjection::ray_to(Vec3 point, double& distance) const {
   if (camera_.orthographic) {
     distance = depth(point);
     return {point - camera_.forward * distance, camera_.forward, -camera_.ortho_reach};

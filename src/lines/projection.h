@@ -24,12 +24,12 @@ struct DrawnLine {
 /// millimetre, and of a picture a tenth of a pixel, which is as much where 96 pixels are an inch.
 inline constexpr double kFinenessToScale = 0.025, kFinenessOfPicture = 0.1;
 
-class Projection {
+class ViewProjection {
  public:
   /// A perspective camera's drawing is its picture, in pixels. An orthographic one's is to scale:
   /// `scale` units of the drawing are one of the model, the camera's eye is at (0, 0), and there is
   /// no frame. `size`: about the model's, for what is nearest to the eye.
-  Projection(const Camera& camera, double scale, double size)
+  ViewProjection(const Camera& camera, double scale, double size)
       : camera_(camera), scale_(scale), nearest_(1e-6 * size) {}
 
   bool is_to_scale() const { return camera_.orthographic; }

@@ -18,9 +18,9 @@ void expect_near(Vec3 a, Vec3 b, double tolerance) {
   EXPECT_LT(length(a - b), tolerance);
 }
 
-TEST(Projection, IsTheCamerasPicture) {
+TEST(ViewProjection, IsTheCamerasPicture) {
   const Camera eye = camera(false);
-  const Projection projection(eye, 1, 10);
+  const ViewProjection projection(eye, 1, 10);
   const Vec3 from{0, 1, 2}, to{3, 2, 5};
   const DrawnLine line = *projection.draw(from, to);
   for (const double s : {0.0, 0.25, 1.0}) {
@@ -35,9 +35,9 @@ TEST(Projection, IsTheCamerasPicture) {
   }
 }
 
-TEST(Projection, ClipsBehindTheEyeAndBesideTheFrame) {
+TEST(ViewProjection, ClipsBehindTheEyeAndBesideTheFrame) {
   const Camera eye = camera(false);
-  const Projection projection(eye, 1, 10);
+  const ViewProjection projection(eye, 1, 10);
   const Vec3 before = eye.eye + eye.forward * 10, behind = eye.eye - eye.forward * 10;
   EXPECT_FALSE(projection.draw(behind, behind + eye.right));
   EXPECT_FALSE(projection.draw(before + eye.right * 20, before + eye.right * 30));
@@ -55,9 +55,9 @@ TEST(Projection, ClipsBehindTheEyeAndBesideTheFrame) {
   }
 }
 
-TEST(Projection, OrthographicIsToScale) {
+TEST(ViewProjection, OrthographicIsToScale) {
   const Camera eye = camera(true);
-  const Projection projection(eye, 2, 10);
+  const ViewProjection projection(eye, 2, 10);
   const DrawnLine line =
       *projection.draw(eye.eye + eye.right * 3, eye.eye + eye.up * 5 + eye.forward * 7);
   EXPECT_NEAR(line.a.x, 6, 1e-12);

@@ -29,7 +29,7 @@ bool is_smooth(const Seen& a, const Seen& b, const Likeness& likeness, double fa
 /// Asks about many parts at once.
 class Asker {
  public:
-  Asker(const Projection& projection, Tracer& tracer, const Likeness& likeness,
+  Asker(const ViewProjection& projection, Tracer& tracer, const Likeness& likeness,
         std::vector<bool>& smooth)
       : projection_(projection), tracer_(tracer), likeness_(likeness), smooth_(smooth) {}
 
@@ -85,7 +85,7 @@ class Asker {
             to_double(hits_[i].normal)};
   }
 
-  const Projection& projection_;
+  const ViewProjection& projection_;
   Tracer& tracer_;
   const Likeness& likeness_;
   std::vector<bool>& smooth_;
@@ -98,7 +98,7 @@ class Asker {
 
 void mark_smooth_parts(Doubt doubt, std::span<const LinePart> parts,
                        std::span<const DrawnLine> lines, std::span<const SolidEdge> edges,
-                       const std::vector<bool>& visible, const Projection& projection,
+                       const std::vector<bool>& visible, const ViewProjection& projection,
                        Tracer& tracer, std::vector<bool>& smooth) {
   const Likeness likeness = doubt == Doubt::kFold ? Likeness{cos_degrees(kCreaseOfBody), 0.25}
                                                   : Likeness{cos_degrees(kCrease), 0.1};

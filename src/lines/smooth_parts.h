@@ -21,7 +21,7 @@ namespace whittle {
 /// looks a little away from an eye that looks along it.
 void mark_smooth_parts(Doubt doubt, std::span<const LinePart> parts,
                        std::span<const DrawnLine> lines, std::span<const SolidEdge> edges,
-                       const std::vector<bool>& visible, const Projection& projection,
+                       const std::vector<bool>& visible, const ViewProjection& projection,
                        Tracer& tracer, std::vector<bool>& smooth);
 
 }  // namespace whittle

@@ -60,7 +60,8 @@ double longest_edge(const SolidMesh& mesh, const SolidMesh::Triangle& triangle) 
 constexpr double kStray = 3;
 
 /// How each face looks to the eye: the cosine, 0 or less where it does not.
-std::vector<double> facings(const SolidMesh& mesh, const Projection& projection, bool is_inside) {
+std::vector<double> facings(const SolidMesh& mesh, const ViewProjection& projection,
+                            bool is_inside) {
   // What is seen along is not seen; rounding must not say otherwise.
   constexpr double kAlong = 1e-9;
   std::vector<double> result(mesh.faces.size(), 0);
@@ -79,7 +80,7 @@ std::vector<double> facings(const SolidMesh& mesh, const Projection& projection,
 /// What is asked of one edge after another.
 class EdgeJudge {
  public:
-  EdgeJudge(const SolidMesh& mesh, const TrueNormals& normals, const Projection& projection,
+  EdgeJudge(const SolidMesh& mesh, const TrueNormals& normals, const ViewProjection& projection,
             bool is_inside)
       : mesh_(mesh),
         normals_(normals),
@@ -138,7 +139,7 @@ class EdgeJudge {
 }  // namespace
 
 std::vector<SolidEdge> solid_edges(const SolidMesh& mesh, const TrueNormals& normals,
-                                   const Projection& projection, bool is_inside,
+                                   const ViewProjection& projection, bool is_inside,
                                    const Workers& workers) {
   const Spokes spokes(mesh);
   const EdgeJudge judge(mesh, normals, projection, is_inside);

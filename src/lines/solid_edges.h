@@ -37,7 +37,7 @@ struct SolidEdge {
 /// many facets counts as the curve it stands for. `is_inside`: the eye is in the solid, and sees
 /// what looks away from it.
 std::vector<SolidEdge> solid_edges(const SolidMesh& mesh, const TrueNormals& normals,
-                                   const Projection& projection, bool is_inside,
+                                   const ViewProjection& projection, bool is_inside,
                                    const Workers& workers);
 
 inline constexpr double kCrease = 5, kCreaseOfBody = 25;

@@ -13,7 +13,7 @@ namespace {
 /// The places at which one line is cut by others.
 class Cutter {
  public:
-  Cutter(const DrawnLine& line, const Projection& projection, double slack)
+  Cutter(const DrawnLine& line, const ViewProjection& projection, double slack)
       : line_(line), projection_(projection), along_(line.b - line.a), slack_(slack) {
     length_ = whittle::length(along_);
   }
@@ -42,7 +42,7 @@ class Cutter {
   }
 
   const DrawnLine& line_;
-  const Projection& projection_;
+  const ViewProjection& projection_;
   Vec2 along_;
   double slack_, length_ = 0;
 };
@@ -77,7 +77,7 @@ double reach(std::span<const DrawnLine> lines) {
 
 Result<std::vector<LinePart>> split_lines(std::span<const DrawnLine> lines,
                                           std::span<const DrawnLine> covering,
-                                          const Projection& projection, double length,
+                                          const ViewProjection& projection, double length,
                                           const Workers& workers, const LineLimits& limits) {
   std::vector<Segment> segments;
   segments.reserve(covering.size());
@@ -95,6 +95,7 @@ Result<std::vector<LinePart>> split_lines(std::span<const DrawnLine> lines,
           pairs = grid.for_near({lines[i].a, lines[i].b}, visited,
                                 [&](uint32_t number) { cutter.cut(covering[number], places); });
         keep_apart(places, length / cutter.length());
+        // Before memory is taken for them.
         budget.add(pairs, places.size() + 1);
         if (!budget.is_spent()) add_parts(uint32_t(i), places, out);
       });

@@ -22,7 +22,7 @@ struct LinePart {
 /// of the drawing, unless the line is. A kMachine error for what passes the limits.
 Result<std::vector<LinePart>> split_lines(std::span<const DrawnLine> lines,
                                           std::span<const DrawnLine> covering,
-                                          const Projection& projection, double length,
+                                          const ViewProjection& projection, double length,
                                           const Workers& workers, const LineLimits& limits = {});
 
 }  // namespace whittle

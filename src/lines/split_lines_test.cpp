@@ -6,11 +6,11 @@ namespace whittle {
 namespace {
 
 const Workers kSplitThreads(2);
-const Projection kAbove = [] {
+const ViewProjection kAbove = [] {
   Camera camera;
   camera.up = {0, 1, 0}, camera.forward = {0, 0, -1};
   camera.orthographic = true;
-  return Projection(camera, 1, 10);
+  return ViewProjection(camera, 1, 10);
 }();
 
 DrawnLine line(Vec3 from, Vec3 to) {

@@ -11,7 +11,7 @@ struct Look {
 };
 
 Look look_at(const LinePart& part, const DrawnLine& line, const SolidEdge& edge,
-             const Projection& projection) {
+             const ViewProjection& projection) {
   // In units of the drawing, and as a share of the part.
   constexpr double kBeside = 1e-3, kShare = 0.05;
   // Distances are floats.
@@ -29,7 +29,7 @@ Look look_at(const LinePart& part, const DrawnLine& line, const SolidEdge& edge,
 }  // namespace
 
 std::vector<bool> visible_parts(std::span<const LinePart> parts, std::span<const DrawnLine> lines,
-                                std::span<const SolidEdge> edges, const Projection& projection,
+                                std::span<const SolidEdge> edges, const ViewProjection& projection,
                                 Tracer& tracer, const Progress& progress) {
   constexpr size_t kAtOnce = size_t(1) << 16;
   std::vector<bool> visible(parts.size(), false);

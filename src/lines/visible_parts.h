@@ -14,7 +14,7 @@ namespace whittle {
 /// face that looks to the eye, must meet nothing before that place. `tracer` is of the same solid
 /// as the edges. `progress` is told the share that is done.
 std::vector<bool> visible_parts(std::span<const LinePart> parts, std::span<const DrawnLine> lines,
-                                std::span<const SolidEdge> edges, const Projection& projection,
+                                std::span<const SolidEdge> edges, const ViewProjection& projection,
                                 Tracer& tracer, const Progress& progress);
 
 }  // namespace whittle

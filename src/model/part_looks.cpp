@@ -64,7 +64,8 @@ bool set_part_looks(const Model& model, std::vector<Appearance>& looks) {
       if (first < node.end) open.push_back({node.end, nodes[first].end, material[first]});
     }
     const uint32_t id = id_of(model, i);
-    if (id != 0) {
+    // Caps have looks of their own.
+    if (id != 0 && !(model.cut && model.cut->is_plane(id))) {
       for (const Difference& outer : open) {
         if (i < outer.first_end) continue;  // It is of what is cut.
         if (outer.material == kSeveral)

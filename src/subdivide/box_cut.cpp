@@ -78,7 +78,7 @@ void BoxCutter::find_active(std::span<const Token> formula, const Box& cell) {
         if (!open.empty()) open.back().reach.add(reach_of(scene_, operand.token()));
       },
       [&] {
-        const Reach reach = open.back().reach.result();
+        const OperandReach reach = open.back().reach.result();
         const bool absorbs = reach.outside == (open.back().kind == TokenKind::kOr);
         reach_[open.back().index] = absorbs ? reach.box : Box::everything();
         open.pop_back();

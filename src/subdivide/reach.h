@@ -6,13 +6,13 @@
 namespace whittle {
 
 /// Of an operand: outside of the box its value is known.
-struct Reach {
+struct OperandReach {
   Box box;
   bool outside = false;  ///< that value
 };
 
 /// Of a face or a unit.
-inline Reach reach_of(const Scene& scene, Token token) {
+inline OperandReach reach_of(const Scene& scene, Token token) {
   const uint32_t unit =
       token.kind() == TokenKind::kFace ? scene.faces[token.payload()].unit : token.payload();
   return {scene.units[unit].outer, token.negated()};
@@ -24,7 +24,7 @@ class ReachOfGroup {
  public:
   explicit ReachOfGroup(TokenKind kind) : absorbing_(kind == TokenKind::kOr) {}
 
-  void add(const Reach& operand) {
+  void add(const OperandReach& operand) {
     if (operand.outside == absorbing_) {
       common_ = any_ ? intersect(common_, operand.box) : operand.box;
       any_ = true;
@@ -32,7 +32,9 @@ class ReachOfGroup {
       all_ = unite(all_, operand.box);
     }
   }
-  Reach result() const { return any_ ? Reach{common_, absorbing_} : Reach{all_, !absorbing_}; }
+  OperandReach result() const {
+    return any_ ? OperandReach{common_, absorbing_} : OperandReach{all_, !absorbing_};
+  }
 
  private:
   bool absorbing_, any_ = false;

@@ -19,7 +19,7 @@ struct Tokens {
   uint32_t first, count;
 };
 
-Reach reach_of(const Scene& scene, std::span<const Token> operand) {
+OperandReach reach_of(const Scene& scene, std::span<const Token> operand) {
   return fold(
       operand, [](TokenKind kind) { return ReachOfGroup(kind); },
       [&](Token token) { return reach_of(scene, token); });
@@ -135,7 +135,7 @@ std::vector<Formula> deal_operands(const Scene& scene, std::span<const Token> fo
             for (size_t x = r[0].first; x <= r[0].last; ++x) visit((z * ny + y) * nx + x);
       };
       for (size_t i = begin; i < end; ++i) {
-        Reach reach = reach_of(scene, formula.subspan(operands[i].first, operands[i].count));
+        OperandReach reach = reach_of(scene, formula.subspan(operands[i].first, operands[i].count));
         // What settles the whole group where it does not reach must be known everywhere.
         if (reach.outside == (kind == TokenKind::kOr)) reach.box = Box::everything();
         std::array<Range, 3> r;

@@ -1,11 +1,13 @@
 #include "trace/section_tracer.h"
 
+#include <cmath>
 #include <utility>
 
 namespace whittle {
 namespace {
 
 constexpr size_t kHitsPerTask = 1024;
+constexpr double kFloatRounding = 2e-7;
 
 }  // namespace
 
@@ -13,7 +15,9 @@ SectionTracer::SectionTracer(Tracer& model, Cut ids, CapOwner owner, const Worke
     : model_(model), ids_(ids), owner_(std::move(owner)), workers_(workers) {}
 
 uint32_t SectionTracer::id_at(uint32_t plane, const Ray& ray, double distance, Vec3 normal) const {
-  const uint32_t owner = owner_(ray.origin + ray.direction * distance, normal);
+  // A hit knows its distance as a float; from far away that is more than the tolerance.
+  const double off = kFloatRounding * std::fabs(distance);
+  const uint32_t owner = owner_(ray.origin + ray.direction * distance - normal * off, normal);
   return owner == 0 ? plane : ids_.cap_of(owner);
 }
 

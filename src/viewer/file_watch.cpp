@@ -69,7 +69,7 @@ void FileWatch::State::replace(const std::vector<std::string>& list, Time since)
   const std::lock_guard lock(mutex);
   for (const auto& [watched, unused] : names) ::inotify_rm_watch(notes, watched);
   names.clear();
-  files.clear();
+  const std::map<std::string, Signature> before = std::exchange(files, {});
   const int64_t from =
       std::chrono::duration_cast<std::chrono::nanoseconds>(since.time_since_epoch()).count();
   for (const std::string& file : list) {
@@ -79,8 +79,10 @@ void FileWatch::State::replace(const std::vector<std::string>& list, Time since)
     const std::filesystem::path target = std::filesystem::canonical(file, failed);
     if (!failed) watch_name(target);
     int64_t written = 0;
-    files[file] = signature_of(file, &written);
-    is_late = is_late || written > from;
+    const Signature now = files[file] = signature_of(file, &written);
+    // A clock elsewhere may be ahead of this one; what is as it was is not late.
+    const auto known = before.find(file);
+    is_late = is_late || (written > from && (known == before.end() || known->second != now));
   }
 }
 

@@ -52,6 +52,16 @@ class FileWatchTest : public testing::Test {
   }};
 };
 
+TEST_F(FileWatchTest, AFileOfTheFutureIsToldOnce) {
+  save(file_, "cube(1);");
+  std::filesystem::last_write_time(
+      file_, std::filesystem::file_time_type::clock::now() + std::chrono::hours(1));
+  watch_.watch({file_}, now());
+  EXPECT_TRUE(comes_to(1));
+  watch_.watch({file_}, now());
+  EXPECT_EQ(count_after_a_while(), 1);
+}
+
 TEST_F(FileWatchTest, WritingInPlaceIsTold) {
   save(file_, "cube(1);");
   watch_.watch({file_}, now());

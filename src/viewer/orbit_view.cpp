@@ -99,30 +99,8 @@ OrbitView pivoted(OrbitView view, Vec3 point) {
   return view;
 }
 
-OrbitView looking_at(OrbitView view, Side side) {
-  const auto degrees = [side]() -> Vec3 {
-    switch (side) {
-      case Side::kFront:
-        return {90, 0, 0};
-      case Side::kBack:
-        return {90, 0, 180};
-      case Side::kRight:
-        return {90, 0, 90};
-      case Side::kLeft:
-        return {90, 0, 270};
-      case Side::kTop:
-        return {0, 0, 0};
-      case Side::kBottom:
-        return {180, 0, 0};
-      // The corner of a cube: its three edges look equally long.
-      case Side::kIsometric:
-        return {54.74, 0, 45};
-      case Side::kDiagonal:
-        break;
-    }
-    return kDefaultRotationDegrees;
-  };
-  view.rotation_degrees = degrees();
+OrbitView rotated_to(OrbitView view, Vec3 rotation_degrees) {
+  view.rotation_degrees = rotation_degrees;
   return view;
 }
 

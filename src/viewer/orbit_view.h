@@ -22,9 +22,6 @@ struct PictureSize {
   bool operator==(const PictureSize&) const = default;
 };
 
-/// The sides that keys look at.
-enum class Side { kFront, kBack, kRight, kLeft, kTop, kBottom, kDiagonal, kIsometric };
-
 ViewOptions view_options(const OrbitView& view, PictureSize size);
 /// Framing the solid as the view is turned; `tight` as in ViewOptions.
 ViewOptions framing_options(const OrbitView& view, PictureSize size, bool tight);
@@ -46,7 +43,8 @@ OrbitView panned(OrbitView view, PictureSize size, double right, double down, do
 OrbitView zoomed(OrbitView view, double factor, Vec3 about);
 /// Turned about that point from now on; it moves to the middle of the picture.
 OrbitView pivoted(OrbitView view, Vec3 point);
-OrbitView looking_at(OrbitView view, Side side);
+/// Turned to OpenSCAD's angles.
+OrbitView rotated_to(OrbitView view, Vec3 rotation_degrees);
 
 /// The factor of that many notches of the wheel away from the hand: 0.9 each.
 double wheel_factor(double notches);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "trace/named_view.h"
 #include "whittle/camera_text.h"
 
 namespace whittle {
@@ -34,7 +35,7 @@ void expect_seen_at(const OrbitView& view, Vec3 p, double x, double y) {
 
 TEST(OrbitViewTest, WhatIsInFrontFollowsADrag) {
   for (const bool orthographic : {false, true}) {
-    const OrbitView front = looking_at(some_view(orthographic), Side::kFront);
+    const OrbitView front = rotated_to(some_view(orthographic), rotation_of(NamedView::kFront));
     const Vec3 near = front.target + Vec3{0, -1, 0};
     const auto before = seen_at(front, near), right = seen_at(orbited(front, 10, 0), near),
                down = seen_at(orbited(front, 0, 10), near);
@@ -88,20 +89,19 @@ TEST(OrbitViewTest, ThePivotIsInTheMiddle) {
   expect_seen_at(orbited(view, 100, 50), {7, 8, 9}, 400, 300);
 }
 
-TEST(OrbitViewTest, SidesLookAlongTheAxes) {
-  const auto forward = [](Side side) {
-    return camera_of(looking_at(some_view(false), side), kViewSize).forward;
+TEST(OrbitViewTest, NamedViewsLookAlongTheAxes) {
+  const auto forward = [](NamedView view) {
+    return camera_of(rotated_to(some_view(false), rotation_of(view)), kViewSize).forward;
   };
-  EXPECT_EQ(forward(Side::kFront), (Vec3{0, 1, 0}));
-  EXPECT_EQ(forward(Side::kBack), (Vec3{0, -1, 0}));
-  EXPECT_EQ(forward(Side::kRight), (Vec3{-1, 0, 0}));
-  EXPECT_EQ(forward(Side::kLeft), (Vec3{1, 0, 0}));
-  EXPECT_EQ(forward(Side::kTop), (Vec3{0, 0, -1}));
-  EXPECT_EQ(forward(Side::kBottom), (Vec3{0, 0, 1}));
-  EXPECT_EQ(looking_at(some_view(true), Side::kDiagonal).rotation_degrees, kDefaultRotationDegrees);
-  const Vec3 isometric = forward(Side::kIsometric);
-  EXPECT_NEAR(isometric.x, -std::sqrt(1.0 / 3), 1e-4);
-  EXPECT_NEAR(isometric.y, std::sqrt(1.0 / 3), 1e-4);
+  EXPECT_EQ(forward(NamedView::kFront), (Vec3{0, 1, 0}));
+  EXPECT_EQ(forward(NamedView::kBack), (Vec3{0, -1, 0}));
+  EXPECT_EQ(forward(NamedView::kRight), (Vec3{-1, 0, 0}));
+  EXPECT_EQ(forward(NamedView::kLeft), (Vec3{1, 0, 0}));
+  EXPECT_EQ(forward(NamedView::kTop), (Vec3{0, 0, -1}));
+  EXPECT_EQ(forward(NamedView::kBottom), (Vec3{0, 0, 1}));
+  const Vec3 isometric = forward(NamedView::kIso);
+  EXPECT_NEAR(isometric.x, -std::sqrt(1.0 / 3), 1e-9);
+  EXPECT_NEAR(isometric.y, std::sqrt(1.0 / 3), 1e-9);
 }
 
 TEST(OrbitViewTest, PointsOnTheTargetsPlaneAreSeenWhereTheyWereAskedFor) {

@@ -72,7 +72,6 @@ struct Painter::State {
   std::stop_source stop;  ///< of what is refined
   // What others take.
   News news;
-  std::atomic<double> progress = -1;
   // What is the thread's own.
   std::unique_ptr<Drawable> drawable;
   std::vector<SourceLocation> places;  ///< by id; empty until somebody asks
@@ -130,8 +129,7 @@ Result<std::optional<Painted>> Painter::State::painted(const PaintRequest& reque
   const Camera camera = camera_of(made.view, request.size);
   if (Status prepared = prepare(camera); !prepared) return prepared.error();
   made.camera = step.scale > 1 ? coarse_camera(camera, step.scale) : camera;
-  Result<Frame> frame = renderer.trace(
-      made.camera, {.stop = token, .progress = [this](double share) { progress = share; }});
+  Result<Frame> frame = renderer.trace(made.camera, {.stop = token});
   if (!frame) return frame.error();
   if (token.stop_requested()) return std::optional<Painted>();
   const Look look = step.is_final ? request.look : draft_of(request.look);
@@ -200,7 +198,6 @@ void Painter::State::paint(std::unique_lock<std::mutex>& lock) {
   lock.unlock();
   if (!request.view) request.view = view_of(request);
   Result<std::optional<Painted>> made = painted(request, step, token);
-  progress = -1;
   lock.lock();
   if (made && !*made) return;
   if (made) {
@@ -242,7 +239,6 @@ bool Painter::State::work(std::unique_lock<std::mutex>& lock) {
     saves.pop_front();
     lock.unlock();
     Result<std::string> path = saved(request);
-    progress = -1;
     lock.lock();
     news.saved.push_back(std::move(path));
     tell(lock);
@@ -261,6 +257,8 @@ void Painter::State::run() {
   std::unique_lock lock(mutex);
   while (!quits)
     if (!work(lock)) changed.wait(lock);
+  // What was to be saved is.
+  for (; drawable && !saves.empty(); saves.pop_front()) static_cast<void>(saved(saves.front()));
 }
 
 Painter::Painter(std::function<void()> notify) : state_(std::make_unique<State>()) {
@@ -318,11 +316,6 @@ void Painter::save(SaveRequest request) {
 Painter::News Painter::take() {
   const std::lock_guard lock(state_->mutex);
   return std::exchange(state_->news, News());
-}
-
-std::optional<double> Painter::progress() const {
-  const double share = state_->progress;
-  return share < 0 ? std::nullopt : std::optional(share);
 }
 
 }  // namespace whittle

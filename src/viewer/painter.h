@@ -104,8 +104,6 @@ class Painter {
     std::optional<Error> failure;            ///< why there is no picture
   };
   News take();
-  /// The share that is traced of a picture, 0 to 1; none if none is being made.
-  std::optional<double> progress() const;
 
  private:
   struct State;

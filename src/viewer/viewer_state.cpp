@@ -34,21 +34,21 @@ std::optional<CellView> after(std::optional<CellView> view) {
 std::optional<OrbitView> moved(Action action, const OrbitView& view) {
   switch (action) {
     case Action::kFront:
-      return looking_at(view, Side::kFront);
+      return rotated_to(view, rotation_of(NamedView::kFront));
     case Action::kBack:
-      return looking_at(view, Side::kBack);
+      return rotated_to(view, rotation_of(NamedView::kBack));
     case Action::kRight:
-      return looking_at(view, Side::kRight);
+      return rotated_to(view, rotation_of(NamedView::kRight));
     case Action::kLeft:
-      return looking_at(view, Side::kLeft);
+      return rotated_to(view, rotation_of(NamedView::kLeft));
     case Action::kTop:
-      return looking_at(view, Side::kTop);
+      return rotated_to(view, rotation_of(NamedView::kTop));
     case Action::kBottom:
-      return looking_at(view, Side::kBottom);
+      return rotated_to(view, rotation_of(NamedView::kBottom));
     case Action::kIsometric:
-      return looking_at(view, Side::kIsometric);
+      return rotated_to(view, rotation_of(NamedView::kIso));
     case Action::kDiagonal:
-      return looking_at(view, Side::kDiagonal);
+      return rotated_to(view, kDefaultRotationDegrees);
     case Action::kTurnLeft:
       return turned(view, kTurn, 0);
     case Action::kTurnRight:

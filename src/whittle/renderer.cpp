@@ -210,9 +210,9 @@ Box Renderer::State::box_beside() {
   };
   if (settings.frames_bounds && !model.drawing) add(model);
   if (settings.thrown_together) add(all_layers().opaque);
-  if (settings.ghosts)
+  if (settings.ghosts || settings.thrown_together)
     for (const Layer& layer : all_layers().see_through)
-      if (layer.kind != LayerKind::kPart) add(layer.model);
+      if (layer.kind != LayerKind::kPart || settings.thrown_together) add(layer.model);
   return box;
 }
 
@@ -429,7 +429,7 @@ Status Renderer::State::look_through(const Camera& camera, const ShadeSettings& 
   const bool has_colors = look.style != Style::kOpenscad || look.is_preview;
   if (!has_colors && !settings.ghosts && !settings.thrown_together) return Done{};
   if (!see_through) {
-    if (all_layers().is_plain() || model.cut) return Done{};
+    if (model.cut || all_layers().is_plain()) return Done{};
     Result<std::unique_ptr<SeeThrough>> made = SeeThrough::make(model, layers, looks, settings);
     if (!made) return made.error();
     see_through = *std::move(made);
@@ -542,9 +542,9 @@ std::string Renderer::picture_note() {
   const auto is_see_through = [](const Appearance& look) { return opacity(look) < 1; };
   if (s.model.drawing && std::ranges::any_of(s.looks, is_see_through))
     return "what is flat is drawn opaque, whatever the alpha of its colours";
-  if (s.model.cut && !s.all_layers().is_plain())
+  if (s.model.cut && std::ranges::any_of(s.looks, is_see_through))
     return "what is cut open is drawn opaque, whatever the alpha of its colours";
-  if (s.model.drawing || !s.all_layers().has_many_colors) return {};
+  if (s.model.drawing || s.model.cut || !s.all_layers().has_many_colors) return {};
   return fmt::format("of more than {} see-through colours, no walls are drawn between the others",
                      kMostSeeThroughColors);
 }

@@ -66,6 +66,17 @@ TEST(CutOpen, ACapIsWhoseMaterialItCutsThrough) {
   }
 }
 
+// A distance is a float, off by far more than the solid's tolerance.
+TEST(CutOpen, CapsAreKnownFromFarAway) {
+  Session session(nested().cut_open({{kFront}}), {.backend = Backend::kCpu});
+  for (int i = 0; i < 200; ++i) {
+    const whittle::WorldRay ray{{-18 + 0.01 * i, -3e5 - 7 * i, 0.02 * i}, {0, 1, 0}};
+    const Seen seen = session.cast({&ray, 1})[0];
+    EXPECT_EQ(seen.id, 1u) << i;
+    EXPECT_TRUE(seen.is_cap) << i;
+  }
+}
+
 TEST(CutOpen, PicturesAreFramedAsOfTheWhole) {
   for (const whittle::Style style : {whittle::Style::kStudio, whittle::Style::kOpenscad}) {
     const whittle::RenderOptions view{.width = 80, .height = 60, .style = style};

@@ -25,13 +25,14 @@ Result<std::unique_ptr<SeeThrough>> SeeThrough::make(const Model& model,
       ghosts = add_looks(ghost_looks(*model.background));
     if (layer.kind == LayerKind::kHighlight && highlights == 0)
       highlights = add_looks(highlight_looks(layer.model));
-    if (layer.kind != LayerKind::kPart) around = unite(around, bounds(layer.model).box);
+    around = unite(around, bounds(layer.model).box);
   }
   made->tolerance_ = tolerance({.box = around, .bounded = true});
 
   RendererSettings own = settings;
   if (own.backend != Backend::kOracle) own.backend = Backend::kCpu;
   own.device.clear();
+  own.part_colors = own.ghosts = own.thrown_together = false;
   own.subdivide.memory /= all.see_through.size() + 1;
   const auto open = [&](const Model& part, Part& into) -> Status {
     Result<Renderer> renderer = Renderer::make(part, own);

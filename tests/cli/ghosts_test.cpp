@@ -1,4 +1,6 @@
 // See-through parts, ghosts and OpenSCAD's preview on the command line.
+#include <algorithm>
+
 #include "drop_in.h"
 
 namespace whittle {
@@ -30,6 +32,34 @@ TEST_F(Ghosts, AreDrawnWhereTheyAreAskedFor) {
   EXPECT_EQ(picture({"marked.csg", "--preview"}), ghosts);
   EXPECT_EQ(picture({"marked.csg", "--render", "--preview"}), ghosts) << "--preview wins";
   EXPECT_EQ(picture({"marked.csg", "--render"}), bare);
+}
+
+TEST_F(Ghosts, WhatIsTrueOfAllPicturesIsSaidOnce) {
+  write("flat.csg", "color([1, 0, 0, 0.5]) square([3, 4]);\n");
+  const std::string expected =
+      "flat.csg: warning: what is flat is drawn opaque, whatever the alpha of its colours\n";
+  EXPECT_EQ(good({"flat.csg", "-o", "p.png", "--imgsize", "32,32"}).err, expected);
+  EXPECT_EQ(good({"flat.csg", "-o", "{n}.png", "--turntable", "3", "--imgsize", "32,32"}).err,
+            expected);
+  EXPECT_EQ(good({"flat.csg", "-o", "{view}.png", "--views", "top,iso", "--imgsize", "32,32"}).err,
+            expected);
+}
+
+TEST_F(Ghosts, NothingSeenInNamedViewsIsSaid) {
+  write("empty.csg", "difference() { cube(1); cube(1); }\n");
+  const Ended ended =
+      run({"empty.csg", "-o", "{view}.png", "--views", "front,top", "--imgsize", "32,32"});
+  EXPECT_NE(ended.err.find("the solid is empty"), std::string::npos) << ended.err;
+  EXPECT_EQ(std::ranges::count(ended.err, '\n'), 1) << ended.err;
+}
+
+// A section is no cutter of parts: it has caps.
+TEST_F(Ghosts, ASectionChangesNoColorsOfCuts) {
+  write("two.csg",
+        "color([1, 0, 0, 1]) cube(5); color([0, 1, 0, 1]) "
+        "multmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) cube(5);\n");
+  EXPECT_EQ(picture({"two.csg", "--section", "y<2", "--cut-color", "part"}),
+            picture({"two.csg", "--section", "y<2"}));
 }
 
 TEST_F(Ghosts, AreNoPartOfFilesOfTheSolid) {

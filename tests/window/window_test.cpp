@@ -248,7 +248,8 @@ TEST_F(WindowTest, ANewerSaveEndsOpenscad) {
         "#!/bin/sh\nfor last; do :; done\ncat \"$3\" >/dev/null\n"
         "while [ $# -gt 1 ]; do case $1 in -o) out=$2;; *.scad) in=$1;; esac; shift; done\n"
         "[ -n \"$in\" ] || in=$1\n"
-        "if grep -q slow \"$in\"; then sleep 60; touch late; fi\ncp \"$in\" \"$out\"\n");
+        "if grep -q slow \"$in\"; then echo $$ >started; sleep 60; echo x >late; fi\ncp \"$in\" "
+        "\"$out\"\n");
   std::filesystem::permissions(path("fake"), std::filesystem::perms::owner_all);
   write("part.scad", kPart);
   ::setenv("OPENSCAD", path("fake").c_str(), 1);
@@ -261,9 +262,11 @@ TEST_F(WindowTest, ANewerSaveEndsOpenscad) {
   write("part.csg", kOther);
   const Picture expected = of_camera(view);
   write("part.scad", "// slow\n");
-  ASSERT_TRUE(comes_true([&] { return shell("pgrep -f 'sleep 60' | head -1") != ""; }));
+  ASSERT_TRUE(comes_true([&] { return !read("started").empty(); }));
   write("part.scad", kOther);
   expect_shown(expected);
+  const pid_t slow = std::stoi(read("started"));
+  EXPECT_TRUE(comes_true([&] { return ::kill(slow, 0) != 0; }));
   EXPECT_EQ(read("late"), "");
   ::unsetenv("OPENSCAD");
 }

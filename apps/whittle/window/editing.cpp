@@ -45,6 +45,7 @@ Status Editing::open(const std::string& file, const ReadLimits& limits) {
   if (!document) return document.error();
   document_ = std::move(*document);
   file_ = file;
+  file_text_ = document_->text();
   limits_ = limits;
   shown_version_ = document_->version();
   return Done{};
@@ -133,13 +134,17 @@ void Editing::redo() {
 Status Editing::save() {
   if (Status written = write_file(file_, document_->text()); !written) return written.error();
   document_->mark_saved();
+  file_text_ = document_->text();
   return Done{};
 }
 
 bool Editing::follow_file() {
   const Result<std::string> text = read_text(file_, limits_.bytes);
-  if (!text || *text == document_->text()) return true;
-  if (document_->is_modified()) return false;
+  if (!text || *text == document_->text() || *text == file_text_) return true;
+  if (document_->is_modified()) {
+    file_text_ = *text;
+    return false;
+  }
   const std::string file = file_;
   const ReadLimits limits = limits_;
   close();

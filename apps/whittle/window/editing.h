@@ -67,6 +67,7 @@ class Editing {
 
   std::optional<SourceDocument> document_;
   std::string file_;
+  std::string file_text_;  ///< what it held when it was last read or written here
   ReadLimits limits_;
   uint64_t shown_version_ = 0;
   std::array<char, 64> search_{};

@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <span>
 
 #include "panels.h"
 
@@ -46,11 +47,11 @@ void draw_help_panel(PanelContext& context) {
   constexpr int kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize |
                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove;
   if (ImGui::Begin("Help", nullptr, kFlags)) {
-    constexpr HelpGroup kLeft[] = {HelpGroup::kMouse, HelpGroup::kView};
-    constexpr HelpGroup kRight[] = {HelpGroup::kLook, HelpGroup::kFile, HelpGroup::kWindow};
-    draw_groups(kLeft);
+    const std::span<const HelpGroup> groups = kHelpGroups;
+    constexpr size_t kOnTheLeft = 2;
+    draw_groups(groups.first(kOnTheLeft));
     ImGui::SameLine(0, kGap * ImGui::GetFontSize());
-    draw_groups(kRight);
+    draw_groups(groups.subspan(kOnTheLeft));
   }
   ImGui::End();
 }

@@ -22,9 +22,7 @@ void draw_notices_panel(PanelContext& context) {
     for (const std::string& line : context.notices.lines()) ImGui::TextUnformatted(line.c_str());
     if (context.work) {
       const WorkShown& work = *context.work;
-      std::string line = fmt::format("{} ({:.1f} s", work.what, work.seconds);
-      if (work.share) line += fmt::format(", {:.0f} %", 100 * *work.share);
-      ImGui::TextUnformatted((line + ")").c_str());
+      ImGui::TextUnformatted(fmt::format("{} ({:.1f} s)", work.what, work.seconds).c_str());
     }
     ImGui::PopTextWrapPos();
   }

@@ -15,8 +15,7 @@ class Editing;
 /// Long work, as it is shown.
 struct WorkShown {
   std::string what;
-  double seconds = 0;           ///< since it began
-  std::optional<double> share;  ///< that is done
+  double seconds = 0;  ///< since it began
 };
 
 /// What the panels show, and what they ask for by setting `wanted`.

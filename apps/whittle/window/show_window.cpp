@@ -12,6 +12,10 @@ Status check_without_output(const RenderArguments& a) {
   if (a.openscad.animation.frames > 0) option = "--animate";
   if (a.openscad.dependency_file) option = "-d";
   if (a.summary.is_wanted()) option = "--summary";
+  if (a.loading.section.is_wanted()) option = "--section";
+  if (a.loading.section.explode) option = "--explode";
+  if (a.xray) option = "--xray";
+  if (a.renderer.ghosts) option = "--ghosts";
   if (option == nullptr) return Done{};
   return Error{ErrorKind::kUsage,
                std::string(option) + " is for files that are made; give -o FILE"};

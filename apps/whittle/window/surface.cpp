@@ -19,7 +19,7 @@ int note_refusal(Display*, XErrorEvent*) {
 
 }  // namespace
 
-struct Surface::State {
+struct WindowSurface::State {
   const WindowCalls& calls;
   Display* display;
   Window window;
@@ -37,7 +37,7 @@ struct Surface::State {
   void make(int width, int height);
 };
 
-void Surface::State::release() {
+void WindowSurface::State::release() {
   if (image == nullptr) return;
   if (is_shared) {
     calls.XShmDetach(display, &shared);
@@ -50,7 +50,7 @@ void Surface::State::release() {
   is_shared = false;
 }
 
-bool Surface::State::share(int width, int height) {
+bool WindowSurface::State::share(int width, int height) {
   image = calls.XShmCreateImage(display, visual, depth, ZPixmap, nullptr, &shared, unsigned(width),
                                 unsigned(height));
   if (image == nullptr) return false;
@@ -82,7 +82,7 @@ bool Surface::State::share(int width, int height) {
   return done;
 }
 
-void Surface::State::make(int width, int height) {
+void WindowSurface::State::make(int width, int height) {
   release();
   can_share = can_share && share(width, height);
   is_shared = can_share;
@@ -94,7 +94,8 @@ void Surface::State::make(int width, int height) {
                          unsigned(width), unsigned(height), kBits, 0);
 }
 
-std::unique_ptr<Surface> Surface::make(const WindowCalls& calls, Display* display, Window window) {
+std::unique_ptr<WindowSurface> WindowSurface::make(const WindowCalls& calls, Display* display,
+                                                   Window window) {
   constexpr unsigned long kRed = 0xff0000, kGreen = 0xff00, kBlue = 0xff;
   XWindowAttributes about;
   if (calls.XGetWindowAttributes(display, window, &about) == 0) return nullptr;
@@ -105,24 +106,24 @@ std::unique_ptr<Surface> Surface::make(const WindowCalls& calls, Display* displa
       State{calls, display, window, about.visual, unsigned(about.depth), {}, {}, {}, {}, {}, {}});
   state->context = calls.XCreateGC(display, window, 0, nullptr);
   state->can_share = calls.XShmQueryExtension(display) != 0;
-  return std::unique_ptr<Surface>(new Surface(std::move(state)));
+  return std::unique_ptr<WindowSurface>(new WindowSurface(std::move(state)));
 }
 
-Surface::Surface(std::unique_ptr<State> state) : state_(std::move(state)) {}
+WindowSurface::WindowSurface(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
-Surface::~Surface() {
+WindowSurface::~WindowSurface() {
   state_->release();
   state_->calls.XFreeGC(state_->display, state_->context);
 }
 
-Pixels Surface::pixels(int width, int height) {
+Pixels WindowSurface::pixels(int width, int height) {
   State& s = *state_;
   if (s.image == nullptr || s.image->width != width || s.image->height != height)
     s.make(width, height);
   return {reinterpret_cast<uint32_t*>(s.image->data), width, height, s.image->bytes_per_line / 4};
 }
 
-void Surface::put() {
+void WindowSurface::put() {
   State& s = *state_;
   const auto width = unsigned(s.image->width), height = unsigned(s.image->height);
   if (s.is_shared)

@@ -8,14 +8,15 @@
 
 namespace whittle {
 
-class Surface {
+class WindowSurface {
  public:
   /// Null if the screen's colours are not 8 bits of red, green and blue each. `calls` must outlive
   /// it, and the window too.
-  static std::unique_ptr<Surface> make(const WindowCalls& calls, Display* display, Window window);
-  ~Surface();
-  Surface(const Surface&) = delete;
-  Surface& operator=(const Surface&) = delete;
+  static std::unique_ptr<WindowSurface> make(const WindowCalls& calls, Display* display,
+                                             Window window);
+  ~WindowSurface();
+  WindowSurface(const WindowSurface&) = delete;
+  WindowSurface& operator=(const WindowSurface&) = delete;
 
   /// What put() shows, of that size; what is in it then is not said.
   Pixels pixels(int width, int height);
@@ -24,7 +25,7 @@ class Surface {
 
  private:
   struct State;
-  explicit Surface(std::unique_ptr<State> state);
+  explicit WindowSurface(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
 

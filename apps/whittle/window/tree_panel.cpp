@@ -112,7 +112,7 @@ class DragSteps {
     ImGui::GetStateStorage()->SetBool(id_, true);
     return goes_on ? SourceDocument::Step::kWithLast : SourceDocument::Step::kOwn;
   }
-  void end() const { ImGui::GetStateStorage()->SetBool(id_, false); }
+  void begin() const { ImGui::GetStateStorage()->SetBool(id_, false); }
 
  private:
   ImGuiID id_;
@@ -126,15 +126,15 @@ void draw_numbers(PanelContext& context, Editing& editing, uint32_t node) {
     for (const size_t index : number.place.indices) name += "[" + std::to_string(index) + "]";
     double value = number.value;
     const auto speed = float(std::max(std::fabs(value), 1.0) * kDragShare);
-    if (ImGui::DragScalar(name.c_str(), ImGuiDataType_Double, &value, speed, nullptr, nullptr,
-                          "%.6g") &&
-        value != number.value) {
+    const bool is_edited = ImGui::DragScalar(name.c_str(), ImGuiDataType_Double, &value, speed,
+                                             nullptr, nullptr, "%.6g");
+    if (ImGui::IsItemActivated()) steps.begin();
+    if (is_edited && value != number.value) {
       const Result<uint32_t> set = set_number(document, node, number.place, value, steps.step());
       if (!set) context.notices.tell(set.error().message);
       // The places of the others are those of the text before.
       return;
     }
-    if (ImGui::IsItemDeactivated()) steps.end();
   }
 }
 
@@ -148,14 +148,15 @@ void draw_color(PanelContext& context, Editing& editing, uint32_t node) {
     }
   }
   const DragSteps steps("colour");
-  if (ImGui::ColorEdit4("colour", color.data(), ImGuiColorEditFlags_Float)) {
+  const bool is_edited = ImGui::ColorEdit4("colour", color.data(), ImGuiColorEditFlags_Float);
+  if (ImGui::IsItemActivated()) steps.begin();
+  if (is_edited) {
     const auto part = [&](size_t i) {
       return std::round(std::clamp(double(color[i]), 0.0, 1.0) * 1000) / 1000;
     };
     say_unless(context, editing.take(set_color(document, node, {part(0), part(1), part(2), part(3)},
                                                steps.step())));
   }
-  if (ImGui::IsItemDeactivated()) steps.end();
 }
 
 }  // namespace

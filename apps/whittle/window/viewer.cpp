@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "../console.h"
@@ -82,7 +83,7 @@ Result<int> Viewer::run() {
     handle(window_->wait(seconds));
     // A line has had its time, or a clock goes on.
     needs_drawing_ = needs_drawing_ || seconds > 0.0;
-    if (was_saved_.exchange(false)) load(false);
+    if (was_saved_.exchange(false)) follow_files();
   }
   if (arguments_.wants_statistics) say_lines(times_.text());
   return kExitDone;
@@ -98,7 +99,6 @@ std::optional<double> Viewer::seconds_to_wait() {
 
 void Viewer::load(bool is_another_file) {
   const std::string& file = state_.files[state_.file];
-  loads_edited_ = false;
   if (is_another_file) {
     editing_.close();
     state_.shows_tree = false;
@@ -112,8 +112,31 @@ void Viewer::load(bool is_another_file) {
   suit_style(state_.look.shading.style, loading_);
   framing_.tight = frames_tightly(state_.look.shading.style);
   const auto framing = is_another_file ? std::optional(framing_) : std::nullopt;
-  loader_->start(loading_job(arguments_, loading_, file, framing, stage_));
   needs_drawing_ = true;
+  if (!is_another_file && editing_.is_open() && editing_.document().is_modified()) {
+    editing_.mark_shown();
+    loader_->start(
+        text_loading_job(arguments_, loading_, file, editing_.document().text(), stage_));
+    return;
+  }
+  loader_->start(loading_job(arguments_, loading_, file, framing, stage_));
+}
+
+/// What is shown was saved, here or by another program.
+void Viewer::follow_files() {
+  if (editing_.is_open() && !editing_.follow_file())
+    notices_.tell("the file has changed beside what is edited here; Ctrl+S overwrites it");
+  load(false);
+}
+
+bool Viewer::may_leave() {
+  if (!editing_.is_open() || !editing_.document().is_modified()) return true;
+  const uint64_t version = editing_.document().version();
+  if (warned_version_ == version) return true;
+  warned_version_ = version;
+  notices_.tell("what is edited is not saved: Ctrl+S saves it; the same again loses it");
+  needs_drawing_ = true;
+  return false;
 }
 
 void Viewer::take_model() {
@@ -138,8 +161,6 @@ void Viewer::take_model() {
     say(fit.error().message);
     return;
   }
-  if (editing_.is_open() && !loads_edited_ && !editing_.follow_file())
-    notices_.tell("the file has changed beside what is edited here; Ctrl+S overwrites it");
   if (!loading_.quiet)
     for (const std::string& warning : drawable->read.warnings) notices_.tell(warning);
   has_model_ = true;
@@ -212,6 +233,9 @@ void Viewer::fit() {
 
 void Viewer::act_on(Action action) {
   needs_drawing_ = true;
+  const bool is_step = action == Action::kNextFile || action == Action::kPreviousFile;
+  const bool leaves = action == Action::kQuit || (is_step && state_.files.size() > 1);
+  if (leaves && !may_leave()) return;
   const Style style = state_.look.shading.style;
   switch (act(action, state_)) {
     case Effect::kNone:
@@ -264,13 +288,20 @@ std::string Viewer::output_name() const {
   return template_name(state_.files[state_.file]) + ".png";
 }
 
-void Viewer::save(bool with_background) {
-  if (!state_.view) return;
-  // What is there already stays.
+/// What is there already stays.
+std::string Viewer::new_output_path() {
   std::string path = output_name();
   const std::string stem = path.substr(0, path.rfind('.'));
-  for (int i = 2; std::filesystem::exists(path); ++i) path = fmt::format("{}-{}.png", stem, i);
-  SaveRequest wanted{rounded(*state_.view), state_.size, state_.look, path};
+  std::error_code unknown;
+  for (int i = 2; given_paths_.contains(path) || std::filesystem::exists(path, unknown); ++i)
+    path = fmt::format("{}-{}.png", stem, i);
+  given_paths_.insert(path);
+  return path;
+}
+
+void Viewer::save(bool with_background) {
+  if (!state_.view) return;
+  SaveRequest wanted{rounded(*state_.view), state_.size, state_.look, new_output_path()};
   wanted.look.shading.background = with_background;
   painter_->save(std::move(wanted));
 }
@@ -293,7 +324,6 @@ void Viewer::load_edited() {
   if (!editing_.is_behind() || loader_->is_busy()) return;
   editing_.mark_shown();
   stage_ = std::make_shared<LoadStage>();
-  loads_edited_ = true;
   loader_->start(
       text_loading_job(arguments_, loading_, editing_.file(), editing_.document().text(), stage_));
 }

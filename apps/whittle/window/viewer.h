@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,9 @@ class Viewer {
   void act_on(Action action);
   void load(bool is_another_file);
   void load_if_curves_changed();
+  /// Whether nothing that is edited would be lost, or it was said that it will be.
+  bool may_leave();
+  void follow_files();
   void show(bool is_moving);
   void fit();
   void save(bool with_background);
@@ -55,6 +59,7 @@ class Viewer {
   void copy_command();
   PaintRequest request(bool is_moving);
   std::string output_name() const;
+  std::string new_output_path();
   // What is seen.
   bool needs_overlay();
   PanelContext panels();
@@ -70,8 +75,8 @@ class Viewer {
   Loading loading_;  ///< with the curves of the present style
   ViewerState state_;
   Editing editing_;
-  bool loads_edited_ = false;  ///< what is loaded is the edited text
-  ViewOptions framing_;        ///< of the first view
+  std::optional<uint64_t> warned_version_;  ///< of the edited text: that it is not saved was said
+  ViewOptions framing_;                     ///< of the first view
   Notices notices_;
   std::optional<Painted> painted_;
   bool is_new_ = false;                ///< that was not yet drawn
@@ -88,6 +93,7 @@ class Viewer {
   bool quits_ = false;
   Stopwatch watch_;
   WindowTimes times_;
+  std::set<std::string> given_paths_;  ///< of pictures, also of those that are not written yet
   std::unique_ptr<ScreenWindow> window_;
   std::atomic<const ScreenWindow*> woken_ = nullptr;  ///< that window, when it is open
   std::unique_ptr<Overlay> overlay_;

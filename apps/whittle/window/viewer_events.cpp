@@ -80,7 +80,7 @@ void Viewer::handle(const InputEvent& event) {
                                       [this](double x, double y) { return point_at(x, y); });
       break;
     case Kind::kDrop:
-      if (event.files.empty()) break;
+      if (event.files.empty() || !may_leave()) break;
       // The first of them is shown now.
       state_.file = state_.files.size();
       state_.files.insert(state_.files.end(), event.files.begin(), event.files.end());
@@ -94,7 +94,7 @@ void Viewer::handle(const InputEvent& event) {
       needs_drawing_ = true;
       break;
     case Kind::kClose:
-      quits_ = true;
+      quits_ = may_leave();
       break;
     case Kind::kCharacter:
       break;
@@ -145,7 +145,7 @@ void Viewer::handle_resize() {
 PanelContext Viewer::panels() {
   std::optional<WorkShown> work;
   if (loader_->is_busy() && stage_->watch.milliseconds() >= kLongMilliseconds)
-    work = WorkShown{stage_->what.load(), stage_->watch.milliseconds() / 1000, {}};
+    work = WorkShown{stage_->what.load(), stage_->watch.milliseconds() / 1000};
   return {.state = state_,
           .notices = notices_,
           .editing = editing_.is_open() ? &editing_ : nullptr,

@@ -29,7 +29,7 @@ struct ScreenWindow::State {
   const WindowCalls& calls;
   bool is_open = false;  ///< GLFW is
   GLFWwindow* window = nullptr;
-  std::unique_ptr<Surface> surface;
+  std::unique_ptr<WindowSurface> surface;
   PictureSize size;
   double factor_x = 1, factor_y = 1;  ///< pixels of the picture for one of GLFW's
   std::vector<InputEvent> events;
@@ -129,7 +129,7 @@ Result<std::unique_ptr<ScreenWindow>> ScreenWindow::open(const std::string& titl
     return no_window(std::string("no window can be opened: ") + (why != nullptr ? why : "unknown"));
   }
   s.surface =
-      Surface::make(s.calls, s.calls.glfwGetX11Display(), s.calls.glfwGetX11Window(s.window));
+      WindowSurface::make(s.calls, s.calls.glfwGetX11Display(), s.calls.glfwGetX11Window(s.window));
   if (!s.surface)
     return no_window(std::string("the display '") + display + "' has no 24-bit colours");
   s.measure();

@@ -42,7 +42,7 @@ bool CellSupply::is_open() const {
   return flat_.root == kOpenPlace && tree_.root->link().kind() == CellKind::kOpen;
 }
 
-const Cell& CellSupply::cell_in(Place place) const {
+const Cell& CellSupply::cell_in(TreePlace place) const {
   if (place.parent == kNoChild) return *tree_.root;
   return flat_.nodes[place.parent].cells[place.side];
 }

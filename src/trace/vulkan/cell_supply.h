@@ -61,7 +61,7 @@ class CellSupply {
   struct Job {
     const Cell* cell;
     Box box;
-    Place place;
+    TreePlace place;
     uint32_t depth;
   };
   /// When a batch ends: after some time, or only with everything.
@@ -69,10 +69,10 @@ class CellSupply {
                  const Take& take);
   /// A place, and the moves of the threshold that have been followed there.
   struct Followed {
-    Place place;
+    TreePlace place;
     uint64_t moves;
   };
-  const Cell& cell_in(Place place) const;
+  const Cell& cell_in(TreePlace place) const;
   void follow(Followed& at);
   /// Flattens the jobs side by side, and puts what they give into its places. `ends`, if any, gets
   /// how many visible cells the batch has after each.

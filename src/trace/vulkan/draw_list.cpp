@@ -42,7 +42,7 @@ Status DrawList::fill(RasterDevice& device, const Bindings& bindings,
   hiding_ = hiding;
   if (Status done =
           reserve(device, bindings, shader::kInstancesBinding, instances_,
-                  2 * (cells.size() + 1) * sizeof(Instance), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+                  2 * (cells.size() + 1) * sizeof(CellInstance), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
       !done)
     return done;
   // Where the next cell of each pass of each possible draw goes; first, how many there are.
@@ -70,7 +70,7 @@ Status DrawList::fill(RasterDevice& device, const Bindings& bindings,
   instance_count_ = first;
   // A power of two: every depth is exact.
   constexpr double kStep = 1.0 / (kMostRanks + 1);
-  auto* const to = static_cast<Instance*>(instances_.mapped());
+  auto* const to = static_cast<CellInstance*>(instances_.mapped());
   for (size_t i = 0; i < cells.size(); ++i)
     to[place_of(i)++] = {cells[i].cell, float(kStep * ++rank)};
 
@@ -124,7 +124,7 @@ void DrawList::record(VkCommandBuffer commands, Pass pass) const {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                       device_->pipelines().draw[draws_[i].shader].get());
     // An offset, and not a first instance in the command: that would be one more feature to need.
-    const VkDeviceSize first = source(draws_[i], pass) * sizeof(Instance);
+    const VkDeviceSize first = source(draws_[i], pass) * sizeof(CellInstance);
     vkCmdBindVertexBuffers(commands, 0, 1, &instances, &first);
     vkCmdDrawIndexedIndirect(commands, commands_.handle(),
                              (pass * draws_.size() + i) * sizeof(Command), 1, 0);

@@ -45,7 +45,7 @@ class Flattener {
     struct Item {
       const Cell* cell;
       Box box;
-      Place place;
+      TreePlace place;
     };
     std::vector<Item> items{{&cell, box, {}}};
     while (!items.empty()) {
@@ -224,7 +224,7 @@ Status flatten(const Scene& scene, const Cell& cell, const Box& box, const Wante
   return Flattener(scene, wanted, refiner, doubles, part).run(cell, box);
 }
 
-void append(FlatPart& part, Place place, uint32_t cells, uint32_t words, FlatCells& whole) {
+void append(FlatPart& part, TreePlace place, uint32_t cells, uint32_t words, FlatCells& whole) {
   const auto first_node = uint32_t(whole.nodes.size());
   const uint32_t first_cell = cells + uint32_t(whole.cells.size() / kCellWords);
   const uint32_t first_word = words + uint32_t(whole.words.size());

@@ -34,7 +34,7 @@ struct FlatNode {
 };
 
 /// A place in the host's tree.
-struct Place {
+struct TreePlace {
   uint32_t parent = kNoChild;  ///< a node, or kNoChild: the tree's root
   uint32_t side = 0;
 };
@@ -66,7 +66,7 @@ struct FlatCells {
   uint32_t root = kNoChild;
 
   /// What stands there; may be changed.
-  uint32_t& at(Place place) {
+  uint32_t& at(TreePlace place) {
     return place.parent == kNoChild ? root : nodes[place.parent].child[place.side];
   }
 };
@@ -97,6 +97,6 @@ Status flatten(const Scene& scene, const Cell& cell, const Box& box, const Wante
 
 /// Puts a part into its place in the whole, of which `cells` and `words` stand before what
 /// `whole.cells` and `whole.words` have. The part's cell numbers are then the whole's.
-void append(FlatPart& part, Place place, uint32_t cells, uint32_t words, FlatCells& whole);
+void append(FlatPart& part, TreePlace place, uint32_t cells, uint32_t words, FlatCells& whole);
 
 }  // namespace whittle

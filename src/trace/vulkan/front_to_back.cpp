@@ -9,7 +9,7 @@ void order_front_to_back(const FlatCells& flat, const Box& region, const Sight& 
   struct Item {
     uint32_t what;
     Box box;
-    Place place;
+    TreePlace place;
   };
   std::vector<Item> items;
   if (flat.root != kNoChild) items.push_back({flat.root, region, {}});

@@ -10,7 +10,7 @@ namespace whittle {
 /// An open cell that may be seen: it must be refined before anything is drawn.
 struct OpenCellInSight {
   Box box;
-  Place place;
+  TreePlace place;
   size_t rank;  ///< how many of the cells come before
 };
 

@@ -116,11 +116,11 @@ Status add_draw(const Device& device, LeafCase leaf, Pipelines& p) {
       stage_of(VK_SHADER_STAGE_VERTEX_BIT, p.cells.get()),
       stage_of(VK_SHADER_STAGE_FRAGMENT_BIT, p.visible.get())};
   stages[1].pSpecializationInfo = &special;
-  const VkVertexInputBindingDescription instances{0, sizeof(Instance),
+  const VkVertexInputBindingDescription instances{0, sizeof(CellInstance),
                                                   VK_VERTEX_INPUT_RATE_INSTANCE};
   const VkVertexInputAttributeDescription attributes[] = {
-      {0, 0, VK_FORMAT_R32_UINT, offsetof(Instance, cell)},
-      {1, 0, VK_FORMAT_R32_SFLOAT, offsetof(Instance, depth)}};
+      {0, 0, VK_FORMAT_R32_UINT, offsetof(CellInstance, cell)},
+      {1, 0, VK_FORMAT_R32_SFLOAT, offsetof(CellInstance, depth)}};
   VkPipelineVertexInputStateCreateInfo vertices{};
   vertices.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
   vertices.vertexBindingDescriptionCount = 1;

@@ -15,11 +15,11 @@ inline constexpr VkFormat kSeenFormat = VK_FORMAT_R32_UINT;
 inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
 /// One cell to draw, as an instance: the inputs of shaders/cells.vert.
-struct Instance {
+struct CellInstance {
   uint32_t cell;
   float depth;  ///< 0 to 1, rising from front to back
 };
-static_assert(offsetof(Instance, depth) == 4 && sizeof(Instance) == 8);
+static_assert(offsetof(CellInstance, depth) == 4 && sizeof(CellInstance) == 8);
 
 /// Vertices of a cell's box: `kBoxIndices` indices draw the faces that the eye sees; those from
 /// there on, `kSquareIndices` of them, a square over the whole picture.
